@@ -29,22 +29,23 @@ export class Bounds extends Handle {
     this.model = model;
   }
 
-  /** Computes the box of all vertices in a pose, in model space. */
+  /** Computes the box of all vertices in a pose, in model space. Throws BAD_ARGUMENT for a pose of another model. */
   ofPose(pose: Pose): Box {
     const { runtime } = this;
-    this.model.checkSameRuntime(pose);
+    this.model.checkOwn(pose, 'pose');
     runtime.check(runtime.functions.bendy_bounds_of_pose(this.handle, pose.handle, runtime.scratch, runtime.error));
     return readBendyBox(runtime, runtime.scratch);
   }
 
   /**
    * Computes the box of all vertices that a joint moves, as if that joint alone moved them: in a pose, in model space, or, without
-   * one, in joint space. Throws NOT_FOUND.
+   * one, in joint space. Throws NOT_FOUND; BAD_ARGUMENT for a joint or a pose of another model.
    */
   ofJoint(joint: Key<Joint>, pose?: Pose): Box {
     const { runtime } = this;
     const { scratch, error } = runtime;
     const number = this.model.joints.number(joint);
+    if (pose !== undefined) this.model.checkOwn(pose, 'pose');
     runtime.check(runtime.functions.bendy_bounds_of_joint(this.handle, pose?.handle ?? 0, number, scratch, error));
     return readBendyBox(runtime, scratch);
   }

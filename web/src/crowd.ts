@@ -1,7 +1,7 @@
 import type { Clip } from './clip.js';
 import { BendyError } from './errors.js';
 import { crowdMemberLayout, verticesLayout } from './generated/bindings.js';
-import type { Key } from './items.js';
+import { checkIndex, type Key } from './items.js';
 import type { LevelOfDetail } from './lod.js';
 import type { Mesh } from './mesh.js';
 import type { Model } from './model.js';
@@ -20,6 +20,8 @@ export class Crowd extends Handle {
   readonly #members: number;
   readonly #palettes: FloatBuffer;
   readonly #positions: FloatBuffer | undefined;
+  /** By member: kept alive until they are replaced. */
+  readonly #lods = new Map<number, LevelOfDetail>();
 
   /** Makes a crowd at rest. Throws OUT_OF_MEMORY; BAD_ARGUMENT for a negative size. */
   constructor(model: Model, size: number, options: { positions?: boolean } = {}) {
@@ -54,8 +56,7 @@ export class Crowd extends Handle {
   }
 
   #member(member: number): number {
-    if (!(member >= 0 && member < this.size)) throw new BendyError('bad_argument', `there is no member ${member}`);
-    return this.#members + crowdMemberLayout.size * member;
+    return this.#members + crowdMemberLayout.size * checkIndex(member, this.size, 'member');
   }
 
   /** Returns the index of a mesh's first matrix within a character. A rigid mesh has one; neighbours with equal palettes share theirs. Throws NOT_FOUND. */
@@ -64,20 +65,24 @@ export class Crowd extends Handle {
   }
 
   /**
-   * Says what a character plays: a clip, or null for the rest pose, at a time in seconds. `lod` must live until the last `play`.
-   * Throws NOT_FOUND, BAD_ARGUMENT.
+   * Says what a character plays: a clip, or null for the rest pose, at a time in seconds. `lod` is used by
+   * each `play`, and must not be disposed before the last one. Throws NOT_FOUND; BAD_ARGUMENT for a clip or a level of another model.
    */
   set(member: number, clip: Key<Clip> | null, seconds: number, lod?: LevelOfDetail): this {
     const at = this.#member(member);
     const { view } = this.runtime;
+    if (lod !== undefined) this.model.checkOwn(lod, 'level of detail');
     view.setUint32(at + crowdMemberLayout.clip, clip === null ? none : this.model.clips.number(clip), true);
     view.setFloat32(at + crowdMemberLayout.seconds, seconds, true);
     view.setUint32(at + crowdMemberLayout.lod, lod?.handle ?? 0, true);
+    if (lod === undefined) this.#lods.delete(member);
+    else this.#lods.set(member, lod);
     return this;
   }
 
-  /** Poses all characters. Throws BAD_ARGUMENT, and then nothing has changed. */
+  /** Poses all characters. Throws BAD_ARGUMENT, or DISPOSED for a level of detail, and then nothing has changed. */
   play(): this {
+    for (const lod of this.#lods.values()) void lod.handle;
     const { functions, error } = this.runtime;
     this.runtime.check(functions.bendy_crowd_play(this.handle, this.#members, this.size, 0, error));
     return this;

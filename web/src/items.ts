@@ -11,6 +11,19 @@ export interface Item {
 /** How a function is told which item is meant: by its name (the first of that name), its number or itself. */
 export type Key<T extends Item> = string | number | T;
 
+/** Returns an index of one of `count` things. Throws BAD_ARGUMENT for any other number. */
+export function checkIndex(index: number, count: number, kind: string): number {
+  if (Number.isInteger(index) && index >= 0 && index < count) return index;
+  throw new BendyError('bad_argument', `${kind} ${index} does not exist: there are ${count}`);
+}
+
+/** Returns the place of an item in the list that it is an item of. Throws BAD_ARGUMENT for one of another model, and for copies. */
+export function indexOwn<T extends { readonly number: number }>(list: readonly T[], item: T, kind: string): number {
+  const index = list[item?.number] === item ? item.number : list.indexOf(item);
+  if (index >= 0) return index;
+  throw new BendyError('bad_argument', `the ${kind} belongs to another model`);
+}
+
 /** A list of named things: an array that also finds by name. */
 export class Items<T extends Item> extends Array<T> {
   #kind = '';
@@ -43,12 +56,12 @@ export class Items<T extends Item> extends Array<T> {
     return this.#numbers.has(name);
   }
 
-  /** Returns the item with that name or number. Throws NOT_FOUND with the names that exist, BAD_ARGUMENT. */
+  /** Returns the item with that name or number. Throws NOT_FOUND with the names that exist; BAD_ARGUMENT for an item of another list. */
   get(key: Key<T>): T {
     return this[this.number(key)]!;
   }
 
-  /** Returns the number of the item with that name or number. Throws NOT_FOUND with the names that exist, BAD_ARGUMENT. */
+  /** Returns the place of the item with that name or number. Throws as `get`. */
   number(key: Key<T>): number {
     if (typeof key === 'string') {
       const number = this.#numbers.get(key);
@@ -57,8 +70,7 @@ export class Items<T extends Item> extends Array<T> {
       if (this.length > names.length) names.push(`${this.length - names.length} more`);
       throw new BendyError('not_found', `there is no ${this.#kind} ${JSON.stringify(key)}; there are: ${names.join(', ') || 'none'}`);
     }
-    const number = typeof key === 'number' ? key : key.number;
-    if (Number.isInteger(number) && number >= 0 && number < this.length) return number;
-    throw new BendyError('bad_argument', `${this.#kind} ${number} does not exist: there are ${this.length}`);
+    if (typeof key === 'number') return checkIndex(key, this.length, this.#kind);
+    return indexOwn(this, key, this.#kind);
   }
 }

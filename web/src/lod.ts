@@ -1,5 +1,5 @@
 import { lodInfoLayout, readBendyLodInfo, submeshLayout } from './generated/bindings.js';
-import type { Key } from './items.js';
+import { checkIndex, type Key } from './items.js';
 import type { Mesh } from './mesh.js';
 import type { Model } from './model.js';
 import { type Submesh, submeshAt } from './parts.js';
@@ -11,6 +11,7 @@ import { Handle } from './runtime.js';
  */
 export class LevelOfDetail extends Handle {
   readonly model: Model;
+  readonly #submeshes: number;
 
   /** Makes a level at full detail, or of a share of the triangles, 0 to 1. Throws BAD_ARGUMENT, OUT_OF_MEMORY. */
   constructor(model: Model, share = 1) {
@@ -20,6 +21,7 @@ export class LevelOfDetail extends Handle {
     super(runtime, handle, () => functions.bendy_lod_free(handle));
     this.own(model.useFile());
     this.model = model;
+    this.#submeshes = model.submeshes.length;
     if (share !== 1) this.setShare(share);
   }
 
@@ -60,6 +62,7 @@ export class LevelOfDetail extends Handle {
 
   /** Returns a submesh at this level: a range of `indices`. Submeshes are numbered as in the model. Throws BAD_ARGUMENT. */
   submesh(number: number): Submesh {
+    checkIndex(number, this.#submeshes, 'submesh');
     const out = this.runtime.struct(submeshLayout);
     this.runtime.check(this.runtime.functions.bendy_lod_submesh(this.handle, number, out, this.runtime.error));
     return submeshAt(this.runtime, out, number);

@@ -1,9 +1,9 @@
 import { Clip } from './clip.js';
 import { BendyError } from './errors.js';
 import { openOptionsLayout } from './generated/bindings.js';
-import { Items, type Key } from './items.js';
+import { checkIndex, indexOwn, Items, type Key } from './items.js';
 import { init, loadedRuntime } from './load.js';
-import { Mesh, MorphTarget } from './mesh.js';
+import { Mesh, type MorphTarget } from './mesh.js';
 import {
   type Chain,
   type Constraint,
@@ -21,7 +21,7 @@ import {
   type Texture,
 } from './parts.js';
 import { Pose } from './pose.js';
-import { Handle, type Runtime } from './runtime.js';
+import { Handle, none, type Runtime } from './runtime.js';
 
 /** How a model is opened. */
 export interface OpenOptions {
@@ -92,7 +92,7 @@ export class Model extends Handle {
     const file = new FileBytes(runtime, bytes instanceof Uint8Array ? bytes : new Uint8Array(bytes));
     try {
       const at = runtime.struct(openOptionsLayout);
-      runtime.view.setUint32(at + openOptionsLayout.object, options.object ?? 0, true);
+      runtime.view.setUint32(at + openOptionsLayout.object, checkIndex(options.object ?? 0, none, 'object'), true);
       runtime.view.setUint32(at + openOptionsLayout.sumsLater, options.checkSums === false ? 1 : 0, true);
       return new Model(runtime, runtime.checkHandle(functions.bendy_open_borrowed(file.at, bytes.byteLength, at, error)), file);
     } catch (failure) {
@@ -191,11 +191,11 @@ export class Model extends Handle {
 
   /** The morph targets of all meshes, mesh after mesh. */
   get morphTargets(): Items<MorphTarget> {
-    return (this.#morphTargets ??= Items.make(
-      'morph target',
-      this.runtime.functions.bendy_morph_target_count(this.handle),
-      (number) => new MorphTarget(this, number),
-    ));
+    if (this.#morphTargets === undefined) {
+      const all = this.meshes.flatMap((mesh) => [...mesh.morphTargets]);
+      this.#morphTargets = Items.make('morph target', all.length, (number) => all[number]!);
+    }
+    return this.#morphTargets;
   }
 
   /** The number of vertices of all meshes together. */
@@ -233,12 +233,16 @@ export class Model extends Handle {
 
   /**
    * Returns the legal rotation nearest to a local rotation of a constraint's joint, and the angle between the two in radians: 0 if
-   * the rotation is legal. Throws BAD_ARGUMENT for a rotation that is not a unit quaternion.
+   * the rotation is legal. Throws BAD_ARGUMENT for a constraint of another model, and for a rotation that is not a unit quaternion.
    */
   clampRotation(constraint: Constraint | number, rotation: ArrayLike<number>): { rotation: Quaternion; violation: number } {
     const { runtime, handle } = this;
     const { functions, error, scratch } = runtime;
-    const number = typeof constraint === 'number' ? constraint : constraint.number;
+    const { constraints } = this;
+    const number =
+      typeof constraint === 'number'
+        ? checkIndex(constraint, constraints.length, 'constraint')
+        : indexOwn(constraints, constraint, 'constraint');
     runtime.putFloats(scratch, rotation, 4, 'rotation');
     const relative = scratch + 32;
     const violation = scratch + 64;
@@ -254,5 +258,10 @@ export class Model extends Handle {
   /** @internal Throws unless both are in the same memory. */
   checkSameRuntime(other: Handle): void {
     if (other.runtime !== this.runtime) throw new BendyError('bad_argument', 'the objects belong to different runtimes');
+  }
+
+  /** @internal Throws unless something was made from this model. */
+  checkOwn(made: { readonly model: Model }, kind: string): void {
+    if (made.model !== this) throw new BendyError('bad_argument', `the ${kind} belongs to another model`);
   }
 }

@@ -167,6 +167,7 @@ export class CrossFade extends Handle {
     const { runtime } = this;
     const easing = word(easingWords, options.easing ?? 'smooth', 'easing');
     const number = this.model.clips.number(clip);
+    if (options.playback !== undefined) this.model.checkSameRuntime(options.playback);
     const playback = options.playback?.handle ?? 0;
     runtime.check(
       runtime.functions.bendy_crossfade_play(this.handle, number, playback, options.fade ?? 0, easing, runtime.error),
@@ -180,10 +181,10 @@ export class CrossFade extends Handle {
     return this;
   }
 
-  /** Sets a pose of the model to the mix. Throws BAD_ARGUMENT if nothing plays. */
+  /** Sets a pose of the model to the mix. Throws BAD_ARGUMENT if nothing plays, and for a pose of another model. */
   sample(pose: Pose): this {
     const { runtime } = this;
-    this.model.checkSameRuntime(pose);
+    this.model.checkOwn(pose, 'pose');
     runtime.check(
       runtime.functions.bendy_sample_crossfade(pose.handle, this.handle, this.#scratch.handle, runtime.error),
     );
@@ -218,6 +219,7 @@ export class CrossFade extends Handle {
   getPlayback(playback: Playback): Playback {
     const newest = this.runtime.functions.bendy_crossfade_count(this.handle) - 1;
     if (newest < 0) throw new BendyError('bad_argument', 'nothing plays');
+    this.model.checkSameRuntime(playback);
     this.runtime.check(
       this.runtime.functions.bendy_crossfade_get_playback(this.handle, newest, playback.handle, this.runtime.error),
     );
@@ -226,6 +228,7 @@ export class CrossFade extends Handle {
 
   /** Copies a clock into that of the newest clip: changes its speed or time. Throws BAD_ARGUMENT if nothing plays. */
   setPlayback(playback: Playback): this {
+    this.model.checkSameRuntime(playback);
     this.runtime.check(
       this.runtime.functions.bendy_crossfade_set_playback(this.handle, playback.handle, this.runtime.error),
     );

@@ -153,8 +153,12 @@ export class Pose extends Handle {
   #skinned: SkinnedVertices | undefined;
   readonly #skinnedMeshes: (SkinnedVertices | undefined)[] = [];
 
-  /** Makes a pose, at rest, or a copy of another pose of the model. Throws OUT_OF_MEMORY, DISPOSED. */
+  /**
+   * Makes a pose, at rest, or a copy of another pose of the model. Throws OUT_OF_MEMORY, DISPOSED; BAD_ARGUMENT for a pose of
+   * another model.
+   */
   constructor(model: Model, from?: Pose) {
+    if (from !== undefined) model.checkOwn(from, 'pose');
     const { runtime } = model;
     const { functions, error } = runtime;
     const handle = runtime.checkHandle(
@@ -184,7 +188,7 @@ export class Pose extends Handle {
 
   /**
    * Sets the pose to a clip at a time on the clip's time line, in seconds, clamped to its ends; see `Playback` for loops. Whatever
-   * the clip does not animate is set to rest. Throws NOT_FOUND, BAD_ARGUMENT for NaN.
+   * the clip does not animate is set to rest. Throws NOT_FOUND; BAD_ARGUMENT for NaN, and for a clip of another model: see `Binding`.
    */
   sample(clip: Key<Clip>, seconds: number): this {
     const { runtime } = this;
@@ -195,6 +199,7 @@ export class Pose extends Handle {
   /** As `sample`, for a clip of the model that a binding animates with. Throws NOT_FOUND, BAD_ARGUMENT. */
   sampleBound(binding: Binding, clip: Key<Clip>, seconds: number): this {
     const { runtime } = this;
+    this.model.checkOwn({ model: binding.posed }, 'binding');
     const number = binding.animated.clips.number(clip);
     runtime.check(runtime.functions.bendy_sample_bound(this.handle, binding.handle, number, seconds, runtime.error));
     return this;
@@ -215,14 +220,14 @@ export class Pose extends Handle {
    */
   blend(other: Pose, weight: number, mask?: ArrayLike<number>): this {
     const { runtime } = this;
-    this.model.checkSameRuntime(other);
+    this.model.checkOwn(other, 'pose');
     runtime.check(runtime.functions.bendy_blend(this.handle, other.handle, weight, this.#maskAt(mask), runtime.error));
     return this;
   }
 
   /** Turns the pose into its difference from a reference, as an input for `add`. Throws BAD_ARGUMENT. */
   makeAdditive(reference: Pose): this {
-    this.model.checkSameRuntime(reference);
+    this.model.checkOwn(reference, 'pose');
     this.runtime.check(this.runtime.functions.bendy_make_additive(this.handle, reference.handle, this.runtime.error));
     return this;
   }
@@ -230,7 +235,7 @@ export class Pose extends Handle {
   /** Adds a difference that `makeAdditive` made, scaled by a weight and per joint by `mask`. Throws BAD_ARGUMENT. */
   add(difference: Pose, weight = 1, mask?: ArrayLike<number>): this {
     const { runtime } = this;
-    this.model.checkSameRuntime(difference);
+    this.model.checkOwn(difference, 'pose');
     runtime.check(runtime.functions.bendy_add(this.handle, difference.handle, weight, this.#maskAt(mask), runtime.error));
     return this;
   }
@@ -305,7 +310,9 @@ export class Pose extends Handle {
   setMorphWeights(weights: ArrayLike<number>, first = 0): this {
     const { runtime } = this;
     const all = this.model.morphTargets.length;
-    if (first + weights.length > all) throw new BendyError('bad_argument', `there are ${all} morph targets`);
+    if (!Number.isInteger(first) || first < 0 || first + weights.length > all) {
+      throw new BendyError('bad_argument', `there are ${all} morph targets`);
+    }
     this.#weights.array.set(weights, first);
     runtime.check(
       runtime.functions.bendy_set_weights(this.handle, first, weights.length, this.#weights.at + 4 * first, runtime.error),
@@ -397,6 +404,7 @@ export class Pose extends Handle {
     if (options?.normals) view.setUint32(out + verticesLayout.normals, this.#normals!.at + 12 * first, true);
     if (options?.tangents) view.setUint32(out + verticesLayout.tangents, this.#tangents!.at + 16 * first, true);
     view.setUint32(given + skinOptionsLayout.mesh, mesh?.number ?? none, true);
+    if (options?.lod !== undefined) model.checkOwn(options.lod, 'level of detail');
     view.setUint32(given + skinOptionsLayout.lod, options?.lod?.handle ?? 0, true);
     view.setUint32(given + skinOptionsLayout.method, word(skinMethodWords, options?.method ?? 'linear', 'method'), true);
     runtime.check(runtime.functions.bendy_skin(this.handle, given, out, runtime.error));

@@ -85,7 +85,7 @@ export class RootPath extends Handle {
     this.model = model;
   }
 
-  /** Computes the motion from the root's rest pose to its position in a clip at a time, in model space. */
+  /** Computes the motion from the root's rest pose to its position in a clip at a time, in model space. Throws NOT_FOUND, BAD_ARGUMENT. */
   at(clip: Key<Clip>, seconds: number): RootMotion {
     const { functions, error } = this.runtime;
     const number = this.model.clips.number(clip);
@@ -99,8 +99,12 @@ export class RootPath extends Handle {
     return call(this.runtime, (out) => functions.bendy_root_path_between(this.handle, number, from, to, out, error));
   }
 
-  /** Computes the motion that the last `advance` of a clock or a cross-fade has played, across the ends of clips. */
+  /**
+   * Computes the motion that the last `advance` of a clock or a cross-fade has played, across the ends of clips.
+   * Throws BAD_ARGUMENT for one of another model.
+   */
   over(played: Playback | CrossFade): RootMotion {
+    this.model.checkOwn(played, 'clip that was played');
     if ('clip' in played) return this.#over(played.clip.number, played.played);
     let motion: RootMotion = { translation: [0, 0, 0], rotation: [0, 0, 0, 1] };
     for (const [number, { clip, weight }] of played.playing.entries()) {
@@ -115,10 +119,13 @@ export class RootPath extends Handle {
     return call(this.runtime, (out) => functions.bendy_root_path_over(this.handle, clip, played, out, error));
   }
 
-  /** Takes the motion out of a pose, and returns it: along the chosen axes the root is then at rest. */
+  /**
+   * Takes the motion out of a pose, and returns it: along the chosen axes the root is then at rest. Throws BAD_ARGUMENT for a pose
+   * of another model.
+   */
   extract(pose: Pose): RootMotion {
     const { functions, error } = this.runtime;
-    this.model.checkSameRuntime(pose);
+    this.model.checkOwn(pose, 'pose');
     return call(this.runtime, (out) => functions.bendy_root_path_extract(this.handle, pose.handle, out, error));
   }
 }

@@ -2,7 +2,21 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { Binding, Bounds, composeMotions, CrossFade, Crowd, Fade, init, Model, motionMatrix, Playback, RootPath } from '../dist/index.js';
+import {
+  Binding,
+  Bounds,
+  composeMotions,
+  CrossFade,
+  Crowd,
+  Fade,
+  init,
+  LevelOfDetail,
+  Model,
+  motionMatrix,
+  Playback,
+  Pose,
+  RootPath,
+} from '../dist/index.js';
 import { difference, example, plain, read, repository, simd } from './helpers.mjs';
 
 const mannequin = read(example('mannequin'));
@@ -118,6 +132,102 @@ test('clips of another model', () => {
   const bound = model.pose().sampleBound(binding, 'Walk', 0.3);
   assert.deepEqual(bound.skin().positions.slice(), model.sample('Walk', 0.3).skin().positions);
   assert.throws(() => new Binding(other, Model.openSync(mannequin, { runtime: plain })), { code: 'BAD_ARGUMENT' });
+  model.dispose();
+});
+
+/** A model, and one of everything that is made from it. */
+function partsOf(bytes, runtime) {
+  const model = Model.openSync(bytes, { runtime });
+  const fade = new CrossFade(model).play(0);
+  const parts = { model, fade, pose: model.pose(), lod: new LevelOfDetail(model), bounds: new Bounds(model), clock: new Playback(model, 0) };
+  return { ...parts, crowd: new Crowd(model, 2), path: new RootPath(model, 0), binding: new Binding(model, model) };
+}
+
+test('parts of another model are refused: of the same file, of another one, of another runtime', () => {
+  const mine = partsOf(everyChunk, simd);
+  const { model, pose } = mine;
+  for (const other of [partsOf(everyChunk, simd), partsOf(mannequin, simd), partsOf(everyChunk, plain)]) {
+    const clip = other.model.clips[0];
+    const chain = other.model.chains[0];
+    const joint = other.model.joints[0];
+    const mesh = other.model.meshes[0];
+    const calls = {
+      sample: () => pose.sample(clip, 0),
+      modelSample: () => model.sample(clip, 0),
+      sampleBound: () => pose.sampleBound(other.binding, 0, 0),
+      sampleBoundClip: () => pose.sampleBound(mine.binding, clip, 0),
+      copy: () => new Pose(model, other.pose),
+      blend: () => pose.blend(other.pose, 0.5),
+      makeAdditive: () => pose.makeAdditive(other.pose),
+      add: () => pose.add(other.pose),
+      reach: () => pose.reach(chain, [0, 1, 0]),
+      local: () => pose.local(joint),
+      setLocal: () => pose.setLocal(joint, { translation: [7, 7, 7] }),
+      palette: () => pose.palette(mesh),
+      skin: () => pose.skin({ mesh }),
+      skinLevel: () => pose.skin({ lod: other.lod }),
+      socket: () => pose.socket(joint),
+      maskBelow: () => model.maskBelow(joint),
+      playback: () => new Playback(model, clip),
+      play: () => mine.fade.play(clip),
+      fadeSample: () => mine.fade.sample(other.pose),
+      boundsOfPose: () => mine.bounds.ofPose(other.pose),
+      boundsOfJoint: () => mine.bounds.ofJoint(joint),
+      boundsOfJointInPose: () => mine.bounds.ofJoint(0, other.pose),
+      rootPath: () => new RootPath(model, joint),
+      rootAt: () => mine.path.at(clip, 0),
+      rootBetween: () => mine.path.between(clip, 0, 1),
+      rootOverClock: () => mine.path.over(other.clock),
+      rootOverFade: () => mine.path.over(other.fade),
+      rootExtract: () => mine.path.extract(other.pose),
+      bindingRoot: () => new Binding(model, model, { rootOnly: true, root: joint }),
+      lodVertices: () => mine.lod.vertices(mesh),
+      lodIndices: () => mine.lod.indices(mesh),
+      crowdSet: () => mine.crowd.set(0, clip, 0),
+      crowdSetLevel: () => mine.crowd.set(0, 0, 0, other.lod),
+      crowdFirstMatrix: () => mine.crowd.firstMatrix(mesh),
+    };
+    if (other.model.runtime !== simd) {
+      calls.playClock = () => mine.fade.play(0, { playback: other.clock });
+      calls.getPlayback = () => mine.fade.getPlayback(other.clock);
+      calls.setPlayback = () => mine.fade.setPlayback(other.clock);
+    }
+    if (other.model.constraints.length > 0) calls.clampRotation = () => model.clampRotation(other.model.constraints[0], [0, 0, 0, 1]);
+    const before = pose.reset().locals.slice();
+    for (const [name, call] of Object.entries(calls)) assert.throws(call, { code: 'BAD_ARGUMENT' }, name);
+    assert.deepEqual(pose.locals, before);
+    other.model.dispose();
+  }
+  assert.equal(model.morphTargets.number(model.meshes[0].morphTargets[0] ?? 0), 0);
+  model.dispose();
+});
+
+test('numbers that a model does not have are refused', () => {
+  const { model, pose, lod, crowd } = partsOf(everyChunk, simd);
+  for (const number of [-1, 0.5, 1000, 2 ** 31, 2 ** 32, Number.NaN, Number.POSITIVE_INFINITY, null, undefined]) {
+    const calls = [
+      () => model.clips.get(number),
+      () => pose.sample(number, 0),
+      () => pose.reach(number, [0, 1, 0]),
+      () => pose.local(number),
+      () => pose.skin({ mesh: number ?? -1 }),
+      () => lod.submesh(number),
+      () => crowd.set(number, 0, 0),
+      () => model.clampRotation(number, [0, 0, 0, 1]),
+      () => pose.setMorphWeights([1], number ?? -1),
+      () => Model.openSync(everyChunk, { runtime: simd, object: number ?? -1 }),
+    ];
+    for (const call of calls) assert.throws(call, (error) => error.name === 'BendyError', `${number}: ${call}`);
+  }
+  model.dispose();
+});
+
+test('a crowd refuses levels that were disposed', () => {
+  const { model, lod, crowd } = partsOf(everyChunk, simd);
+  crowd.set(1, 0, 0, lod).play();
+  lod.dispose();
+  assert.throws(() => crowd.play(), { code: 'DISPOSED' });
+  crowd.set(1, 0, 0).play();
   model.dispose();
 });
 
