@@ -24,22 +24,24 @@ std::uint32_t find_name(const Names& names, std::string_view wanted) {
     return kNone;
 }
 
-py::object get_item(const Items& items, const py::object& key) {
-    if (py::isinstance<py::slice>(key)) return items.list.attr("__getitem__")(key);
-    if (!py::isinstance<py::str>(key)) return items.list[index_of(key, items.names.size(), items.kind.c_str())];
-    const auto wanted = key.cast<std::string>();
-    const std::uint32_t place = find_name(items.names, wanted);
-    if (place != kNone) return items.list[place];
-    const std::vector<std::string_view> names(items.names.begin(), items.names.end());
-    raise_no_such(items.kind.c_str(), wanted, names);
-}
-
 bool has_item(const Items& items, const py::object& key) {
     if (py::isinstance<py::str>(key)) return find_name(items.names, key.cast<std::string>()) != kNone;
     for (const auto& one : items.list) {
         if (one.is(key)) return true;
     }
     return false;
+}
+
+py::object get_item(const Items& items, const py::object& key) {
+    if (py::isinstance<py::slice>(key)) return items.list.attr("__getitem__")(key);
+    if (py::isinstance<PyJoint>(key) && !has_item(items, key))  // which counts as a number elsewhere
+        throw py::value_error("the joint is none of these");
+    if (!py::isinstance<py::str>(key)) return items.list[index_of(key, items.names.size(), items.kind.c_str())];
+    const auto wanted = key.cast<std::string>();
+    const std::uint32_t place = find_name(items.names, wanted);
+    if (place != kNone) return items.list[place];
+    const std::vector<std::string_view> names(items.names.begin(), items.names.end());
+    raise_no_such(items.kind.c_str(), wanted, names);
 }
 
 /// A model, until it is closed. Lists are made at the first use.
@@ -256,7 +258,7 @@ std::uint32_t find_thing(const SharedCharacter& character, const py::handle& wan
         for (const auto& one : names) all.push_back(one.name);
         raise_no_such(kind, name, all);
     }
-    if (PyIndex_Check(wanted.ptr()) == 0)
+    if (py::isinstance<PyJoint>(wanted) || PyIndex_Check(wanted.ptr()) == 0)  // a joint counts as its number elsewhere
         throw py::type_error("a " + std::string(kind) + " is a name, a number or one of the model's own");
     return index_of(wanted, count, kind);
 }
