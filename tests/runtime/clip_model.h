@@ -22,7 +22,7 @@ struct ClipSpec {
     std::string name;
     float start = 0.0f, end = 1.0f;
     bool loop = false;
-    std::vector<TrackSpec> tracks;
+    std::vector<TrackSpec> tracks = {};
 };
 
 inline Node clip_node(const ClipSpec& spec) {

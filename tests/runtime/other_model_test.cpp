@@ -6,6 +6,7 @@
 #include "runtime/build_model.h"
 #include "runtime/clip_model.h"
 #include "runtime/limb_model.h"
+#include "source_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -196,7 +197,7 @@ std::vector<std::string> calls_with_parts() {
         "CrowdMember", "ReachRequest", "SkinRequest", "const Mesh&",     "TrackView&",       "_t joint",
         "_t mesh,",    "_t mesh)",     "Pose& other", "Pose& reference", "Pose& difference", "Pose& scratch",
         "Bounds::of(", "extract("};
-    std::ifstream file(BENDY_SOURCE_DIR "/tests/capi/counterparts.txt");
+    std::ifstream file(source_folder() / "tests/capi/counterparts.txt");
     std::vector<std::string> calls;
     for (std::string line; std::getline(file, line);) {
         const std::size_t end = line.find(") -> ");

@@ -188,19 +188,6 @@ TEST(Unpack, ConstantsAreInThePlan) {
         EXPECT_LT(difference(played(kernel, view, 0.7f), played(unpack_plain, view, 0.7f)), 1e-7) << kernel.name;
 }
 
-TEST(Unpack, SamplePlaysClipsOfItsModelAndOfAnother) {
-    const Owned model(build_file(packed_spec(30, 50, 16)));
-    const Owned other(build_file(packed_spec(30, 50, 16)));
-    Pose pose(*model);
-    for (float seconds = 0.4f; seconds < 2.7f; seconds += 0.0631f) {
-        ASSERT_TRUE(sample(pose, model->clip("packed"), seconds));
-        const std::vector<JointTransform> own = test::locals_of(pose);
-        ASSERT_TRUE(sample(pose, other->clip("packed"), seconds));
-        const std::vector<JointTransform> of_other = test::locals_of(pose);
-        EXPECT_LT(difference(own, of_other), 2e-6);
-    }
-}
-
 TEST(Unpack, DamageStaysInBounds) {
     const auto good = write_packed(make_samples(kJoints, 6, 2)).value();
     double sum = 0.0;

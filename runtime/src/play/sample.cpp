@@ -300,14 +300,14 @@ private:
 
 Result<void, CallError> sample(Pose& pose, const Clip* clip, float seconds) {
     const ModelData& model = *PoseState::of(pose).data;
-    Result<void, CallError> checked = model.check(clip);
-    if (checked && std::isnan(seconds)) checked = CallError::not_finite;
-    if (checked) {
-        Sampling(model.number_of(clip), seconds, pose).run();
-    } else {
-        pose.set_rest();
+    const std::size_t number = model.number_of(clip);
+    if (number < model.object.clips.size() && !std::isnan(seconds)) {
+        Sampling(number, seconds, pose).run();
+        return {};
     }
-    return checked;
+    pose.set_rest();
+    if (const auto checked = model.check(clip); !checked) return checked;
+    return CallError::not_finite;
 }
 
 }  // namespace bendy
