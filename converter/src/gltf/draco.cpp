@@ -1,12 +1,13 @@
 #include "draco.h"
 
 #include "accessor.h"
+#include "bounded_draco.h"
 #include "failure.h"
 
 #include <draco/attributes/attribute_octahedron_transform.h>
 #include <draco/attributes/attribute_quantization_transform.h>
 #include <draco/attributes/point_attribute.h>
-#include <draco/compression/decode.h>
+#include <draco/compression/config/compression_shared.h>
 #include <draco/core/varint_decoding.h>
 #include <draco/metadata/metadata_decoder.h>
 
@@ -109,12 +110,16 @@ constexpr std::size_t kMaxComponents = 16;
 // Draco allocates by the counts in its header before it reads what they count, and entropy coding may spend next to
 // nothing on an element. So the counts are held against the data first; regular meshes stay below 64 faces per byte.
 constexpr std::uint64_t kMaxElements = std::uint64_t{1} << 24;
-constexpr std::uint64_t kElementsPerByte = 256;
-constexpr std::uint64_t kElementsSlack = std::uint64_t{1} << 16;
+constexpr std::uint64_t kElementsPerByte = 128;
+constexpr std::uint64_t kElementsSlack = std::uint64_t{1} << 12;
+constexpr std::uint64_t kMostTables = 16;      // of connectivity: the mesh's, and one for an attribute with seams
+constexpr std::uint64_t kMostComponents = 32;  // of all attributes together, on average
 
 struct Counts {
+    std::uint8_t method = 0;
     std::uint64_t faces = 0;
     std::uint64_t vertices = 0;
+    std::uint64_t tables = 1;
 };
 
 /// Reads the counts that stand before the connectivity (bit-stream specification, sections 3 to 6). False: malformed or
@@ -149,8 +154,13 @@ bool read_counts(std::span<const std::byte> data, Counts& counts) {
     }
     if (!draco::DecodeVarint(&first, &buffer) || !draco::DecodeVarint(&second, &buffer)) return false;
     const bool sequential = method == draco::MESH_SEQUENTIAL_ENCODING;
+    if (!sequential && method != draco::MESH_EDGEBREAKER_ENCODING) return false;
+    std::uint8_t attributes_with_seams = 0;
+    if (!sequential && !buffer.Decode(&attributes_with_seams)) return false;
+    counts.method = method;
     counts.faces = sequential ? first : second;
     counts.vertices = sequential ? second : first;
+    counts.tables += attributes_with_seams;
     return true;
 }
 
@@ -227,17 +237,12 @@ DracoPrimitive decode_draco(const Document& document, const tinygltf::Primitive&
     Counts counts;
     if (!read_counts(data, counts)) fail(here, "Draco: the data does not start with the header of a triangle mesh");
     const std::uint64_t limit = std::min(kMaxElements, kElementsSlack + data.size() * kElementsPerByte);
-    if (counts.faces > limit || counts.vertices > limit) {
+    if (counts.faces > limit || counts.vertices > limit || counts.faces * counts.tables > limit * kMostTables) {
         fail(here, "Draco: " + std::to_string(data.size()) + " bytes cannot hold " + std::to_string(counts.faces) +
                        " faces and " + std::to_string(counts.vertices) + " vertices");
     }
-
-    draco::DecoderBuffer buffer;
-    buffer.Init(reinterpret_cast<const char*>(data.data()), data.size());
-    draco::Decoder decoder;
-    for (int type = 0; type < draco::GeometryAttribute::NAMED_ATTRIBUTES_COUNT; ++type)
-        decoder.SetSkipAttributeTransform(static_cast<draco::GeometryAttribute::Type>(type));  // draco_floats does it
-    auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
+    document.budget.take(counts.faces + counts.vertices, sizeof(std::uint32_t), here);
+    auto decoded = decode_draco_mesh(data, counts.method, limit * kMostComponents);
     if (!decoded.ok()) fail(here, "Draco: " + decoded.status().error_msg_string());
     const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
     if (mesh == nullptr) fail(here, "Draco: the data holds no mesh");

@@ -133,5 +133,12 @@ TEST(GltfDraco, CountsAreHeldAgainstTheData) {
     EXPECT_EQ(gltf.import().message(), "Draco: 22 bytes cannot hold 2147483648 faces and 2147483648 vertices");
 }
 
+/// 587 bytes that ask for more than a thousand million orientations of texture coordinates: Draco 1.5.5 decodes each.
+TEST(GltfDraco, CountsBeyondTheMeshAreRefused) {
+    const Import import =
+        import_file(std::filesystem::path(BENDY_SOURCE_DIR) / "tests/converter/gltf/draco_orientations.gltf");
+    EXPECT_EQ(import.message(), "Draco: a count goes beyond what the data describes");
+}
+
 }  // namespace
 }  // namespace bendy::converter::draco_test
