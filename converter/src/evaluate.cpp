@@ -218,7 +218,7 @@ std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const std::vector<do
 }
 
 std::vector<EvaluatedPose> sample_poses(const Scene& scene, std::size_t most, std::size_t most_of_clip) {
-    constexpr std::size_t kMostMatrices = std::size_t{1} << 20U;
+    constexpr std::size_t kMostMatrices = std::size_t{1} << 18U;
     std::vector<EvaluatedPose> poses(1);
     evaluate_rest(scene, poses.front());
     most = std::min(most, kMostMatrices / std::max<std::size_t>(scene.joints.size(), 1));

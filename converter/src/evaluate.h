@@ -36,7 +36,7 @@ std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const std::vector<do
                                           const std::vector<glm::dmat4>& joints);
 
 /// Poses to estimate by: the rest pose, then every clip at times spread evenly from its first key to its last.
-/// \param most           of all clips together; large skeletons get fewer, so that they take some 130 MB at most
+/// \param most           of all clips together; large skeletons get fewer, so that they take some 33 MB at most
 /// \param most_of_clip  of one clip
 std::vector<EvaluatedPose> sample_poses(const Scene& scene, std::size_t most,
                                         std::size_t most_of_clip = std::numeric_limits<std::size_t>::max());

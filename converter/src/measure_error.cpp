@@ -4,6 +4,7 @@
 #include "frame_shapes.h"
 #include "in_parallel.h"
 #include "posable_mesh.h"
+#include "sample_limits.h"
 #include "space.h"
 
 #include <glm/geometric.hpp>
@@ -20,7 +21,6 @@
 namespace bendy::converter {
 namespace {
 
-constexpr double kSamplesPerSecond = 240.0;
 constexpr double kMostSamples = 100'800.0;  // of one clip: 7 minutes
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -329,7 +329,8 @@ std::vector<glm::dvec3> points_of_joints(const Scene& scene) {
     return points;
 }
 
-std::vector<double> sample_times(const Clip& exact, const Clip& decoded) {
+/// \param limit  of the samples between the keys
+std::vector<double> sample_times(const Clip& exact, const Clip& decoded, std::size_t limit) {
     std::vector<double> times;
     for (const Clip* clip : {&exact, &decoded}) {
         for (const Track& track : clip->tracks) times.insert(times.end(), track.times.begin(), track.times.end());
@@ -345,8 +346,9 @@ std::vector<double> sample_times(const Clip& exact, const Clip& decoded) {
     if (times.empty()) return times;
     const double start = times.front();
     const double length = times.back() - start;
-    const double steps = std::min(std::ceil(length * kSamplesPerSecond), kMostSamples);
-    const double step = steps < kMostSamples ? 1.0 / kSamplesPerSecond : length / steps;
+    const double most = std::min(kMostSamples, static_cast<double>(limit));
+    const double steps = std::min(std::ceil(length * kSamplesPerSecond), most);
+    const double step = steps < most ? 1.0 / kSamplesPerSecond : length / steps;
     for (unsigned k = 1; k < steps; ++k) times.push_back(start + k * step);
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
@@ -452,10 +454,12 @@ std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decode
     comparison.measure_rest();
     errors.back() = comparison.worst();
 
+    const WorkLimits limits = find_limits(exact);
+    if (!limits.can_be_measured) return impossible();
     std::vector<std::vector<double>> times;
     std::size_t total = 0;
     for (const std::uint32_t clip : clips) {
-        times.push_back(sample_times(exact.clips[clip], decoded.clips[clip]));
+        times.push_back(sample_times(exact.clips[clip], decoded.clips[clip], limits.clips[clip].samples));
         total += times.back().size();
     }
     SharedProgress progress(options.progress, static_cast<double>(total));

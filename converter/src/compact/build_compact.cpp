@@ -6,6 +6,7 @@
 #include "evaluate.h"
 #include "frame_shapes.h"
 #include "measure_error.h"
+#include "sample_limits.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import.h>
@@ -187,6 +188,10 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
     result.max_error = bound.is_share ? bound.value * result.height : bound.value;
     std::vector<std::byte> plain = build_chunks(exact, generator, report);
     result.exact = count_bytes(plain);
+    if (!find_limits(exact).can_be_measured) {
+        report.warn("poses too much for its size to be measured: written exactly");
+        return plain;
+    }
 
     Report unheard;  // the compact file's warnings are the same
     Scene geometry_scene = exact;

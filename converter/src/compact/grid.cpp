@@ -8,14 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 namespace bendy::converter {
 namespace {
 
 constexpr std::uint32_t kDenser = 4;  // grids up to so many times denser than the densest track are tried
-constexpr std::uint32_t kMostFrames = 16'000'000;
 
 bool is_packable(const Track& track) {
     return track.path != TrackPath::weights && track.interpolation == Interpolation::linear;
@@ -37,7 +35,7 @@ bool is_on_grid(const Track& track, double start, double rate) {
 }
 
 /// Frames per second of a track's keys, if they are evenly spaced up to `denser` times.
-std::optional<double> rate_of(const Track& track) {
+std::optional<double> rate_of(const Track& track, double most_frames) {
     const std::size_t last = track.times.size() - 1;
     double shortest = double{track.times[last]} - track.times[0];
     for (std::size_t k = 1; k <= last; ++k) shortest = std::min(shortest, double{track.times[k]} - track.times[k - 1]);
@@ -52,7 +50,7 @@ std::optional<double> rate_of(const Track& track) {
         if ((k & (k - 1)) == 0) rate = frames / (double{track.times[k]} - track.times[0]);
     }
     rate = frames / length;
-    if (!(rate > 0.0) || !(frames < kMostFrames)) return std::nullopt;
+    if (!(rate > 0.0) || !(frames < most_frames)) return std::nullopt;
     return rate;
 }
 
@@ -88,9 +86,9 @@ Grid still_grid(const Tracks& tracks) {
 }
 
 /// The even grid that holds most of the moving tracks, and these.
-GridTracks even_grid(const Clip& clip, const Tracks& tracks) {
+GridTracks even_grid(const Clip& clip, const Tracks& tracks, double most_frames) {
     GridTracks found;
-    const std::optional<double> base = rate_of(*tracks.densest);
+    const std::optional<double> base = rate_of(*tracks.densest, most_frames);
     if (!base) return found;
     for (std::uint32_t denser = 1; denser <= kDenser; ++denser) {
         const double rate = *base * denser;
@@ -105,7 +103,7 @@ GridTracks even_grid(const Clip& clip, const Tracks& tracks) {
             last = std::max(last, double{track.times.back()});
         }
         const double frames = std::nearbyint((last - origin) * rate);
-        if (held.size() <= found.tracks.size() || !(frames < kMostFrames)) continue;
+        if (held.size() <= found.tracks.size() || !(frames < most_frames)) continue;
         found.grid = {static_cast<float>(origin), static_cast<float>(rate), static_cast<std::uint32_t>(frames) + 1};
         found.tracks = std::move(held);
     }
@@ -113,7 +111,7 @@ GridTracks even_grid(const Clip& clip, const Tracks& tracks) {
 }
 
 /// All times at which a moving track has a key; no frames if these are many more than any one track has.
-Grid uneven_grid(const Clip& clip, const Tracks& tracks) {
+Grid uneven_grid(const Clip& clip, const Tracks& tracks, std::size_t most_frames) {
     constexpr std::size_t kMore = 2;
     Grid grid{0.0f, 0.0f, 0, {}};
     const std::vector<float>* before = nullptr;
@@ -121,11 +119,11 @@ Grid uneven_grid(const Clip& clip, const Tracks& tracks) {
         const std::vector<float>& times = clip.tracks[number].times;
         if (before != nullptr && *before == times) continue;
         before = &times;
-        std::vector<float> merged;
-        std::set_union(grid.times.begin(), grid.times.end(), times.begin(), times.end(), std::back_inserter(merged));
-        grid.times = std::move(merged);
-        if (grid.times.size() > kMore * tracks.densest->times.size()) return {0.0f, 0.0f, 0, {}};
+        grid.times.insert(grid.times.end(), times.begin(), times.end());
     }
+    std::sort(grid.times.begin(), grid.times.end());
+    grid.times.erase(std::unique(grid.times.begin(), grid.times.end()), grid.times.end());
+    if (grid.times.size() > std::min(kMore * tracks.densest->times.size(), most_frames)) return {0.0f, 0.0f, 0, {}};
     grid.start = grid.times.front();
     grid.frames = static_cast<std::uint32_t>(grid.times.size());
     return grid;
@@ -144,13 +142,13 @@ double Grid::snap() const {
     return rate != 0.0f ? kGridTolerance / rate : 0.0;
 }
 
-std::optional<GridTracks> find_grid(const Clip& clip) {
+std::optional<GridTracks> find_grid(const Clip& clip, std::size_t most_frames) {
     const Tracks tracks = sort_tracks(clip);
     GridTracks found;
     if (!tracks.moving.empty()) {
-        found = even_grid(clip, tracks);
+        found = even_grid(clip, tracks, static_cast<double>(most_frames));
         if (found.tracks.size() < tracks.moving.size()) {
-            Grid uneven = uneven_grid(clip, tracks);
+            Grid uneven = uneven_grid(clip, tracks, most_frames);
             if (uneven.frames > 1) found = {std::move(uneven), tracks.moving};
         }
     }

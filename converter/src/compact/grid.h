@@ -22,17 +22,20 @@ struct Grid {
     [[nodiscard]] double snap() const;
 };
 
+/// More than any clip of a file that can be packed has.
+inline constexpr std::size_t kMostFrames = 16'000'000;
+
 /// The time of the track's last key that is not farther than `snap` seconds from a time; or that time itself.
 double snapped(const Track& track, double seconds, double snap);
 
 /// The coarsest grid that holds the keys of as many tracks as possible, and the numbers of those tracks: linear ones of
 /// joints. If no even grid holds them all, all the times at which there are keys, where those are few. Tracks that
-/// never change need no grid. Nothing if there is nothing to pack.
+/// never change need no grid. Nothing if there is nothing to pack. \param most_frames  that a grid may have
 struct GridTracks {
     Grid grid;
     std::vector<std::uint32_t> tracks;
 };
-std::optional<GridTracks> find_grid(const Clip& clip);
+std::optional<GridTracks> find_grid(const Clip& clip, std::size_t most_frames = kMostFrames);
 
 /// Keys farther from a frame than this, in frames, are not on the grid.
 inline constexpr double kGridTolerance = 0.01;

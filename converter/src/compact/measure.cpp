@@ -2,6 +2,7 @@
 
 #include "evaluate.h"
 #include "frame_shapes.h"
+#include "sample_limits.h"
 
 #include <bendy/format/trig.h>
 
@@ -134,23 +135,22 @@ std::vector<std::vector<glm::dvec3>> find_probes(const Scene& scene, Probes kind
 
 namespace {
 
-constexpr double kRate = 240.0;  // per second
-
-std::vector<float> times_of(const Clip& clip) {
+std::vector<float> times_of(const Clip& clip, std::size_t most_samples) {
     std::vector<float> times;
     const ClipSpan span = span_of(clip);
+    const std::vector<float>* before = nullptr;
     for (const Track& track : clip.tracks) {
-        if (track.path == TrackPath::weights) continue;
-        const std::size_t before = times.size();
+        if (track.path == TrackPath::weights || (before != nullptr && *before == track.times)) continue;
         times.insert(times.end(), track.times.begin(), track.times.end());
-        std::inplace_merge(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(before), times.end());
-        times.erase(std::unique(times.begin(), times.end()), times.end());
+        before = &track.times;
     }
-    const auto count = static_cast<std::size_t>(std::min((double{span.end} - span.start) * kRate, 1e8));
-    const std::size_t before = times.size();
-    for (std::size_t k = 1; k <= count; ++k)
-        times.push_back(static_cast<float>(span.start + static_cast<double>(k) / kRate));
-    std::inplace_merge(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(before), times.end());
+    const double length = double{span.end} - span.start;
+    const double wanted = length * kSamplesPerSecond;
+    const double count = std::min(wanted, static_cast<double>(most_samples));
+    const double rate = count < wanted ? count / length : kSamplesPerSecond;
+    for (std::size_t k = 1; k <= static_cast<std::size_t>(count); ++k)
+        times.push_back(static_cast<float>(span.start + static_cast<double>(k) / rate));
+    std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
     return times;
 }
@@ -205,11 +205,11 @@ private:
 
 }  // namespace
 
-SourceMotion::SourceMotion(const Scene& scene, const Clip& clip) : scene_(scene), clip_(clip), times_(times_of(clip)) {
+SourceMotion::SourceMotion(const Scene& scene, const Clip& clip, std::size_t most_samples, std::size_t most_bytes)
+    : scene_(scene), clip_(clip), times_(times_of(clip, most_samples)) {
     for (const Joint& joint : scene.joints) rest_.push_back(local_of(joint.rest));
-    constexpr std::size_t kMostPoseBytes = std::size_t{1} << 26U;  // that are kept
     const std::size_t joints = scene.joints.size();
-    has_all_ = times_.size() <= kMostPoseBytes / (sizeof(Affine) * std::max<std::size_t>(joints, 1));
+    has_all_ = times_.size() <= most_bytes / (sizeof(Affine) * std::max<std::size_t>(joints, 1));
     poses_.resize(joints * (has_all_ ? times_.size() : 1));
     if (!has_all_) return;
     for (std::size_t k = 0; k < times_.size(); ++k)

@@ -32,8 +32,8 @@ struct WorstError {
 /// A clip as it is measured: its joints 240 times a second and at each of its key times, interpolated as glTF says.
 class SourceMotion {
 public:
-    /// Refers to both.
-    SourceMotion(const Scene& scene, const Clip& clip);
+    /// Refers to both. \param most_samples  between the keys, see ClipLimits \param most_bytes  of poses that are kept
+    SourceMotion(const Scene& scene, const Clip& clip, std::size_t most_samples, std::size_t most_bytes);
 
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const Clip& clip() const { return clip_; }

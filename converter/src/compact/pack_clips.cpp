@@ -4,6 +4,7 @@
 #include "compact/quantise_clip.h"
 #include "frame_shapes.h"
 #include "in_parallel.h"
+#include "sample_limits.h"
 
 #include <bendy/format/codec.h>
 #include <bendy/format/packed_clip.h>
@@ -125,16 +126,16 @@ ClipSpan with_frames(ClipSpan span, Bytes payload) {
 }
 
 PackedReport pack_clip(const Scene& scene, Clip& clip, const std::vector<std::vector<glm::dvec3>>& probes,
-                       double max_error, const Progress& progress) {
+                       double max_error, const ClipLimits& limits, std::size_t pose_bytes, const Progress& progress) {
     constexpr double kPackedOnce = 0.5;  // of the work, about
     PackedReport report;
     report.name = clip.name;
     report.source_bytes = report.kept_bytes = key_bytes(clip);
-    const std::optional<GridTracks> tracks = find_grid(clip);
+    const std::optional<GridTracks> tracks = find_grid(clip, limits.frames);
     if (!tracks) return report;
     std::vector<bool> is_replaced(clip.tracks.size());
     for (const std::uint32_t number : tracks->tracks) is_replaced[number] = true;
-    SourceMotion source(scene, clip);
+    SourceMotion source(scene, clip, limits.samples, pose_bytes);
     std::optional<Packed> best = pack_frames(source, *tracks, is_replaced, probes, max_error, 1.0);
     if (progress) progress(kPackedOnce);
     if (best) {
@@ -173,6 +174,7 @@ std::size_t most_threads(const Scene& scene) {
 
 std::vector<PackedReport> pack_clips(Scene& scene, std::span<const double> max_errors, const PackOptions& options) {
     const auto probes = find_probes(scene, options.probes);
+    const WorkLimits limits = find_limits(scene);
     // A clip takes about as long as it has keys. The longest go first, so that no thread is left with one at the end.
     std::vector<double> sizes;
     for (std::size_t k = 0; k < scene.clips.size(); ++k)
@@ -190,8 +192,8 @@ std::vector<PackedReport> pack_clips(Scene& scene, std::span<const double> max_e
             shared.add((done - told) * sizes[number]);
             told = done;
         };
-        reports[number] = pack_clip(scene, scene.clips[number], probes, max_errors[number],
-                                    shared.is_heard() ? Progress(tell) : Progress());
+        reports[number] = pack_clip(scene, scene.clips[number], probes, max_errors[number], limits.clips[number],
+                                    limits.pose_bytes, shared.is_heard() ? Progress(tell) : Progress());
         tell(1.0);
     });
     return reports;
