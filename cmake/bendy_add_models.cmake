@@ -2,9 +2,10 @@
 #
 # A target that is built with all others and converts each model (.gltf, .glb, .vrm, ...) to DIR/NAME.bendy by
 # `bendy convert OPTION...`. A model is converted again when a file that it was read from has changed, its buffers, images
-# and rig file included, or the program or the options have.
+# and rig file included, or the program or the options have. Buffers and images are read from the folder of the model and below
+# it; `OPTIONS --root DIR` allows those in DIR too.
 #
-# Relative paths, that of `--rig` too, start from the current source directory, DIR from the current binary directory, which it
+# Relative paths, those of `--rig` and `--root` too, start from the current source directory, DIR from the current binary directory, which it
 # also is if not given. A model below the current source directory keeps its folder there: models/fox.glb becomes
 # DIR/models/fox.bendy; any other has just its name. The target's property BENDY_MODELS lists the outputs, for install()
 # and the like.
@@ -21,14 +22,16 @@ function(bendy_add_models target)
     set(arg_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
   endif()
   cmake_path(ABSOLUTE_PATH arg_OUTPUT_DIRECTORY BASE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR} NORMALIZE)
-  list(FIND arg_OPTIONS --rig at)
-  if(NOT at EQUAL -1)
-    math(EXPR at "${at} + 1")
-    list(GET arg_OPTIONS ${at} rig)
-    list(REMOVE_AT arg_OPTIONS ${at})
-    cmake_path(ABSOLUTE_PATH rig BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} NORMALIZE)
-    list(INSERT arg_OPTIONS ${at} "${rig}")
-  endif()
+  foreach(option IN ITEMS --rig --root)
+    list(FIND arg_OPTIONS ${option} at)
+    if(NOT at EQUAL -1)
+      math(EXPR at "${at} + 1")
+      list(GET arg_OPTIONS ${at} path)
+      list(REMOVE_AT arg_OPTIONS ${at})
+      cmake_path(ABSOLUTE_PATH path BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} NORMALIZE)
+      list(INSERT arg_OPTIONS ${at} "${path}")
+    endif()
+  endforeach()
 
   set(outputs "")
   foreach(model IN LISTS arg_FILES)

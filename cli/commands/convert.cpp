@@ -1,4 +1,5 @@
 #include "commands/commands.h"
+#include "commands/model_options.h"
 #include "convert/batch.h"
 #include "convert/conversion.h"
 #include "files/input.h"
@@ -23,6 +24,14 @@
 
 namespace bendy::cli {
 namespace {
+
+/// The files of the input whose bytes are in the output.
+void print_embedded(const std::vector<converter::EmbeddedFile>& files, std::ostream& out) {
+    for (const converter::EmbeddedFile& file : files) {
+        out << "  embedded       " << printable(file.file.string()) << " (" << grouped(file.size) << " bytes"
+            << (file.media_type.empty() ? "" : ", " + file.media_type) << ")\n";
+    }
+}
 
 /// Bytes by kind before and after, and the worst error.
 void print_compact(const converter::CompactReport& report, std::ostream& out) {
@@ -53,8 +62,8 @@ void print_compact(const converter::CompactReport& report, std::ostream& out) {
     out << '\n';
 }
 
-/// converter::convert of a file, or of standard input if its name is a dash: what that refers to is relative to the
-/// working directory. A rig file may be a dash too. Prints what cannot be read of standard input and throws Failed.
+/// converter::convert of a file, or of standard input if its name is a dash. A rig file may be a dash too. Prints what
+/// cannot be read of standard input and throws Failed.
 Result<std::vector<std::byte>, converter::ImportError> convert_input(const std::filesystem::path& input,
                                                                      converter::ConvertOptions options,
                                                                      converter::Report& report) {
@@ -154,6 +163,7 @@ void convert_file(const ConvertArguments& arguments, NamedBy named) {
     print_warnings(input, report);
     print_proposals(report);
     if (!arguments.quiet) print_summary(arguments, bytes, !report.compact);
+    if (!arguments.quiet) print_embedded(report.embedded(), summary_stream(arguments.output));
     if (!arguments.quiet && report.compact) print_compact(*report.compact, summary_stream(arguments.output));
 }
 
@@ -238,6 +248,7 @@ void add_convert(CLI::App& program) {
                      "to the output's folder")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
+    add_root(*command, arguments->root);
     command
         ->add_option("--ticks-per-second", arguments->ticks_per_second,
                      "for X-files: key time units per second, for files that state none or a wrong number (30 if keys "

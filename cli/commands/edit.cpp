@@ -29,6 +29,7 @@ struct EditArguments {
     std::filesystem::path output;
     std::vector<std::string> strips, renames, joint_renames, extracts;
     std::vector<std::filesystem::path> joint_tables, merges;
+    std::filesystem::path root;
     std::string same_name = "error";
     bool in_place = false;
     bool quiet = false;
@@ -61,9 +62,9 @@ edit::Rename read_table(const std::filesystem::path& path) {
 }
 
 /// A bendy file, or one of another kind made one.
-Buffer read_other(const std::filesystem::path& path, Outputs& outputs) {
+Buffer read_other(const std::filesystem::path& path, const std::filesystem::path& root, Outputs& outputs) {
     converter::Report unheard;
-    const auto file = read_character(path, unheard);
+    const auto file = read_character(path, root, unheard);
     for (const converter::SourceFile& source : unheard.sources()) outputs.reads(source.file);
     if (!file) fail(file_of(file.error(), path), describe(file.error()));
     return {file->bytes().begin(), file->bytes().end()};
@@ -129,18 +130,18 @@ private:
         const auto same_name = edit::parse_same_name(arguments_.same_name);
         if (!same_name) throw CLI::ValidationError("--same-name", same_name.error().message);
         outputs_.reads(path);
-        steps_.emplace_back(
-            [path, same_name = *same_name, &outputs = outputs_](Bytes file, edit::Log& log) -> edit::Edited {
-                const Buffer other = read_other(path, outputs);
-                const auto first = log.warnings.size();
-                auto merged = edit::merge_clips(file, other, same_name, log);
-                for (std::size_t k = first; k < log.warnings.size(); ++k)
-                    log.warnings[k] = path.string() + ": " + log.warnings[k];
-                if (merged) return merged;
-                const bool is_clash = merged.error().message.ends_with("already");
-                return edit::Problem{"merging " + path.string() + ": " + merged.error().message +
-                                     (is_clash ? "; --same-name replace or --same-name number says what to do" : "")};
-            });
+        steps_.emplace_back([path, root = arguments_.root, same_name = *same_name, &outputs = outputs_](
+                                Bytes file, edit::Log& log) -> edit::Edited {
+            const Buffer other = read_other(path, root, outputs);
+            const auto first = log.warnings.size();
+            auto merged = edit::merge_clips(file, other, same_name, log);
+            for (std::size_t k = first; k < log.warnings.size(); ++k)
+                log.warnings[k] = path.string() + ": " + log.warnings[k];
+            if (merged) return merged;
+            const bool is_clash = merged.error().message.ends_with("already");
+            return edit::Problem{"merging " + path.string() + ": " + merged.error().message +
+                                 (is_clash ? "; --same-name replace or --same-name number says what to do" : "")};
+        });
     }
 
     void add_extract(const std::string& joint) {
@@ -213,6 +214,7 @@ void add_edit(CLI::App& program) {
                      "new one, as in Run.001")
         ->check(CLI::IsMember({"error", "replace", "number"}))
         ->capture_default_str();
+    add_root(*command, arguments->root);
     add("--extract", arguments->extracts,
         "make a character of this joint and its descendants; it keeps its place in every clip");
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");

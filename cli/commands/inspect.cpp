@@ -1,4 +1,5 @@
 #include "commands/commands.h"
+#include "commands/model_options.h"
 #include "files/input.h"
 #include "files/output.h"
 #include "inspect/describe_chunk.h"
@@ -27,6 +28,7 @@ using Json = nlohmann::ordered_json;
 
 struct InspectArguments {
     std::filesystem::path file;
+    std::filesystem::path root;
     std::string chunk;
     bool json = false;
     bool summary = false;
@@ -196,8 +198,7 @@ void run_html(const InspectArguments& arguments) {
     file.tree = &*tree;
     file.document = read_document(*tree, file.faults);
     check_values(*tree, file.document, file.faults);
-    file.pictures = draw_page_pictures(
-        file.bytes, arguments.file.has_parent_path() ? arguments.file.parent_path() : std::filesystem::path("."));
+    file.pictures = draw_page_pictures(file.bytes, folders_of(arguments.file, arguments.root));
     const std::size_t size = write_page(arguments, outputs, file);
     print_size(arguments.html, size) << ", " << counted(file.faults.count(), "fault") << '\n';
     if (!file.faults.empty()) warn_of_faults(arguments.file, file.faults, file.bytes);
@@ -268,6 +269,7 @@ void add_inspect(CLI::App& program) {
         ->excludes(chunk)
         ->excludes(all)
         ->excludes(summary);
+    add_root(*command, arguments->root);
     command->footer(
         "What is in the JSON: docs/inspect.md.\n"
         "Example: bendy inspect fox.bendy --summary\n"

@@ -126,6 +126,15 @@ CLI::Option* add_character(CLI::App& command, std::filesystem::path& file) {
                               "a bendy file, or one that `bendy convert` reads, which is converted on the fly");
 }
 
+CLI::Option* add_root(CLI::App& command, std::filesystem::path& root) {
+    return command
+        .add_option("--root", root,
+                    "a folder whose files may be read if the input names them; without this option, only those in the "
+                    "input's own folder and below it are. Names in standard input start in this folder")
+        ->type_name("FOLDER")
+        ->check(CLI::Validator(CLI::ExistingDirectory).description(""));
+}
+
 CLI::Option* add_clip(CLI::App& command, std::string& clip) {
     return command.add_option("--clip", clip, "the clip, by number or name; the rest pose if not given");
 }

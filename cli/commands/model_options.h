@@ -15,6 +15,8 @@ namespace bendy::cli {
 
 /// Adds FILE of a command that takes a character of any kind.
 CLI::Option* add_character(CLI::App& command, std::filesystem::path& file);
+/// Adds --root, of a command that reads the files that its input names.
+CLI::Option* add_root(CLI::App& command, std::filesystem::path& root);
 
 /// Adds --clip, of a command that shows the rest pose without it.
 CLI::Option* add_clip(CLI::App& command, std::string& clip);

@@ -26,6 +26,7 @@ namespace {
 
 struct PoseArguments {
     std::filesystem::path file;
+    std::filesystem::path root;
     std::string clip;
     bool has_clip = false;
     float time = 0.0f;
@@ -379,7 +380,7 @@ void run(const PoseArguments& arguments) {
     check_suffix({"pose", "--output", {".obj", ".ply", ".json"}, false}, arguments.file, arguments.output,
                  arguments.format);
     require_folder_of(arguments.output);
-    const CharacterFile file = open_character(arguments.file, outputs);
+    const CharacterFile file = open_character(arguments.file, arguments.root, outputs);
     outputs.write(arguments.output, writer(pose_object(arguments, read_model(arguments.file, file.bytes()))));
 }
 
@@ -389,6 +390,7 @@ void add_pose(CLI::App& program) {
     const auto arguments = std::make_shared<PoseArguments>();
     CLI::App* command = program.add_subcommand("pose", "Write the posed, skinned geometry at a time of a clip");
     add_character(*command, arguments->file)->required();
+    add_root(*command, arguments->root);
     CLI::Option* clip = add_clip(*command, arguments->clip);
     command->add_option("--time", arguments->time, "seconds on the clip's time line; clamped to its ends")
         ->check([](const std::string& text) { return text.empty() ? "must be a finite number" : ""; })

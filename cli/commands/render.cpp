@@ -26,6 +26,7 @@ namespace {
 
 struct RenderArguments {
     std::filesystem::path file;
+    std::filesystem::path root;
     std::filesystem::path output;
     std::string clip;
     bool has_clip = false;
@@ -206,7 +207,7 @@ std::vector<std::byte> draw_all(RenderArguments& arguments, const Model& model, 
 void note_inputs(const RenderArguments& arguments, const Model& model, Outputs& outputs) {
     for (const Texture& texture : model.textures()) {
         for (const ImageView& image : texture.images) {
-            if (const auto file = viewer::linked_file(arguments.render.folder, image.uri)) outputs.reads(*file);
+            if (const auto file = arguments.render.folders.find(image.uri)) outputs.reads(*file);
         }
     }
 }
@@ -229,9 +230,9 @@ void run(RenderArguments arguments) {
     if (!arguments.background.empty()) parse_background(arguments.background, arguments.render.draw.background);
     arguments.render.draw.targets = arguments.render.draw.constraints;
     require_folder_of(arguments.output);
-    const CharacterFile file = open_character(arguments.file, outputs);
+    const CharacterFile file = open_character(arguments.file, arguments.root, outputs);
     const Model model = read_model(arguments.file, file.bytes());
-    arguments.render.folder = arguments.file.has_parent_path() ? arguments.file.parent_path() : ".";
+    arguments.render.folders = folders_of(arguments.file, arguments.root);
     note_inputs(arguments, model, outputs);
     try {
         const std::vector<std::byte> bytes = draw_all(arguments, model, format);
@@ -252,6 +253,7 @@ void add_render(CLI::App& program) {
                      "OUT.png; or OUT.gif, OUT.webp: an animation; - is standard output")
         ->required();
     add_format(*command, arguments->format, {"png", "gif", "webp"});
+    add_root(*command, arguments->root);
     CLI::Option* clip = add_clip(*command, arguments->clip);
     CLI::Option* time = command->add_option("--time", arguments->time, "seconds on the clip's time line")->needs(clip);
     add_reach(*command, arguments->reach);

@@ -45,11 +45,12 @@ Links find_dangling_links(const std::filesystem::path& file, Bytes bytes) {
     decode_leaves(*tree);
     Faults ignored;
     const Document document = read_document(*tree, ignored);
+    const ReadableFolders folders = folders_of(file, {});
     Links dangling;
     for (const TextureView& texture : document.textures) {
         for (const ImageView& image : texture.images) {
             if (image.uri.empty()) continue;
-            const auto linked = converter::linked_file(image.uri, file);
+            const auto linked = folders.find(image.uri);  // of a file outside, nobody is told whether it exists
             std::error_code problem;
             if (linked && !std::filesystem::exists(*linked, problem))
                 dangling.push_back({(*tree)[image.chunk].offset, std::string(image.uri)});

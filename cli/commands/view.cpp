@@ -21,9 +21,9 @@ struct ViewArguments {
 };
 
 /// The bytes of a bendy file, or of one of another kind converted.
-std::vector<std::byte> open_any(const std::filesystem::path& file) {
+std::vector<std::byte> open_any(const std::filesystem::path& file, const std::filesystem::path& root) {
     converter::Report report;
-    const auto character = read_character(file, report);
+    const auto character = read_character(file, root, report);
     if (!character)
         throw viewer::ViewerError(file_of(character.error(), file).string() + ": " + describe(character.error()));
     print_warnings(file, report);
@@ -34,7 +34,7 @@ std::vector<std::byte> open_any(const std::filesystem::path& file) {
 void run(ViewArguments arguments) {
     viewer::ViewOptions& options = arguments.view;
     options.file = arguments.file;
-    options.open = open_any;
+    options.open = [root = options.root](const std::filesystem::path& path) { return open_any(path, root); };
     options.tentacle = std::as_bytes(std::span(kTentacle));
     const std::filesystem::path name = arguments.file.empty() ? "tentacle demo" : arguments.file;
     options.warn = [name](const std::string& what) { warn(name, printable(what)); };
@@ -54,6 +54,7 @@ void add_view(CLI::App& program) {
     const auto arguments = std::make_shared<ViewArguments>();
     CLI::App* command = program.add_subcommand("view", "Look at a character; without a file, the tentacle demo");
     add_character(*command, arguments->file);
+    add_root(*command, arguments->view.root);
     command->add_flag("-v,--verbose", arguments->view.verbose, "print the OpenGL driver in use");
     // For tests, see viewer/src/window.h.
     command->add_option("--script", arguments->view.script)->group("");

@@ -89,6 +89,7 @@ converter::ConvertOptions options_of(const ConvertArguments& arguments) {
     if (!arguments.scene.empty()) options.gltf.scene = arguments.scene;
     options.gltf.embed_images = arguments.images == "embed";
     options.gltf.instances = arguments.instances;
+    options.gltf.root = arguments.root;
     if (!arguments.rig.empty()) options.rig = arguments.rig;
     options.ticks_per_second = arguments.ticks_per_second;
     options.merge_clips = arguments.merge_clips;
@@ -108,11 +109,15 @@ unsigned jobs_of(const ConvertArguments& arguments) {
 }
 
 std::string recipe_of(const ConvertArguments& arguments) {
+    const auto whole = [](const std::filesystem::path& path) {
+        return path.empty() ? std::string() : std::filesystem::absolute(path).string();
+    };
     const nlohmann::json recipe{{"bendy", BENDY_VERSION},
                                 {"scene", arguments.scene},
                                 {"images", arguments.images},
                                 {"instances", arguments.instances},
-                                {"rig", arguments.rig.empty() ? "" : std::filesystem::absolute(arguments.rig).string()},
+                                {"root", whole(arguments.root)},
+                                {"rig", whole(arguments.rig)},
                                 {"ticks_per_second", arguments.ticks_per_second},
                                 {"merge_clips", arguments.merge_clips},
                                 {"auto_rig", arguments.auto_rig},
@@ -131,6 +136,10 @@ Json converted_report(const std::filesystem::path& input, const std::filesystem:
     json["bytes"] = bytes.size();
     if (const Result<Model> model = Model::from_memory(bytes)) add_contents(json, *model);
     if (report.compact) json["compact"] = describe_compact(*report.compact);
+    Json embedded = Json::array();
+    for (const converter::EmbeddedFile& file : report.embedded())
+        embedded.push_back({{"file", file.file.string()}, {"bytes", file.size}, {"mediaType", file.media_type}});
+    json["embedded"] = std::move(embedded);
     add_remarks(json, report);
     return json;
 }

@@ -21,6 +21,7 @@ struct ConvertArguments {
     std::string images = "embed";
     bool instances = false;
     std::filesystem::path rig;
+    std::filesystem::path root;  ///< see ReadableFolders; may be empty
     std::filesystem::path depfile;
     bool exact = true;
     double ticks_per_second = 0.0;  ///< of X-files; 0: as the file says

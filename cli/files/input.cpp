@@ -39,10 +39,13 @@ Result<std::vector<std::byte>> read_standard_input() {
 }
 
 Result<std::vector<std::byte>, converter::ImportError> converted_input(const std::filesystem::path& file,
+                                                                       const std::filesystem::path& root,
                                                                        InputBytes bytes, converter::Report& report) {
-    if (is_dash(file)) return converter::convert(std::move(bytes).take(), "standard input", {}, report);
+    converter::ConvertOptions options;
+    options.gltf.root = root;
+    if (is_dash(file)) return converter::convert(std::move(bytes).take(), "standard input", options, report);
     bytes = InputBytes();
-    return converter::convert(file, {}, report);
+    return converter::convert(file, options, report);
 }
 
 }  // namespace
@@ -111,7 +114,12 @@ Model read_model(const std::filesystem::path& file, Bytes bytes) {
     return *std::move(model);
 }
 
+ReadableFolders folders_of(const std::filesystem::path& file, const std::filesystem::path& root) {
+    return is_dash(file) ? ReadableFolders(root) : ReadableFolders::of(file, root);
+}
+
 Result<CharacterFile, converter::ImportError> read_character(const std::filesystem::path& file,
+                                                             const std::filesystem::path& root,
                                                              converter::Report& report) {
     Result<InputBytes> mapped = InputBytes::open(file);
     if (!mapped) return converter::ImportError{{}, why_not_opened(file, mapped.error())};
@@ -120,14 +128,14 @@ Result<CharacterFile, converter::ImportError> read_character(const std::filesyst
     // Of what is not known the name decides who says what is wrong with it.
     if (is_bendy || (!kind && !is_dash(file) && !converter::has_readable_suffix(file)))
         return CharacterFile(*std::move(mapped));
-    auto converted = converted_input(file, *std::move(mapped), report);
+    auto converted = converted_input(file, root, *std::move(mapped), report);
     if (!converted) return converted.error();
     return CharacterFile(*std::move(converted));
 }
 
-CharacterFile open_character(const std::filesystem::path& file, Outputs& outputs) {
+CharacterFile open_character(const std::filesystem::path& file, const std::filesystem::path& root, Outputs& outputs) {
     converter::Report report;
-    auto character = read_character(file, report);
+    auto character = read_character(file, root, report);
     for (const converter::SourceFile& source : report.sources()) outputs.reads(source.file);
     if (!character) fail(file_of(character.error(), file), describe(character.error()));
     print_warnings(file, report);

@@ -5,6 +5,7 @@
 #include <bendy/converter/report.h>
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/file.h>
+#include <bendy/format/readable_folders.h>
 #include <bendy/format/result.h>
 #include <bendy/runtime/model.h>
 
@@ -72,11 +73,16 @@ private:
     std::vector<std::byte> converted_;
 };
 
-/// Maps a bendy file, or converts what `convert` reads. What is wrong comes as an error.
+/// The folders in which the names in a file, or in standard input, are looked for. \param root  of --root, or empty
+ReadableFolders folders_of(const std::filesystem::path& file, const std::filesystem::path& root);
+
+/// Maps a bendy file, or converts what `convert` reads. What is wrong comes as an error. \param root  of --root, or
+/// empty
 Result<CharacterFile, converter::ImportError> read_character(const std::filesystem::path& file,
+                                                             const std::filesystem::path& root,
                                                              converter::Report& report);
 /// The same; prints what the conversion has to say, as `convert` does, and fails if something is wrong.
 /// \param outputs  learns what was read
-CharacterFile open_character(const std::filesystem::path& file, Outputs& outputs);
+CharacterFile open_character(const std::filesystem::path& file, const std::filesystem::path& root, Outputs& outputs);
 
 }  // namespace bendy::cli

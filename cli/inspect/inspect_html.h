@@ -1,9 +1,9 @@
 #pragma once
 
 #include <bendy/format/document.h>
+#include <bendy/format/readable_folders.h>
 
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,8 +25,8 @@ struct PagePictures {
 };
 
 /// The rest pose, and the first clips as animations that repeat; nothing for a file with faults, or where nothing can
-/// be drawn. Bounded in number and size. \param folder  of images that the file only names
-PagePictures draw_page_pictures(Bytes file, const std::filesystem::path& folder);
+/// be drawn. Bounded in number and size. \param folders  of images that the file only names
+PagePictures draw_page_pictures(Bytes file, const ReadableFolders& folders);
 
 /// What could be read of a file. Without a tree its grammar is broken, and the document is empty.
 struct InspectedFile {

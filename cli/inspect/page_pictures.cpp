@@ -17,17 +17,17 @@ constexpr std::uint32_t kStillSide = 512;                  // pixels
 constexpr std::uint32_t kClipSide = 256;
 constexpr unsigned kFrames = 16;  // of an animation
 
-viewer::RenderOptions options_of(std::uint32_t side, const Clip* clip, const std::filesystem::path& folder) {
+viewer::RenderOptions options_of(std::uint32_t side, const Clip* clip, const ReadableFolders& folders) {
     viewer::RenderOptions options;
     options.width = options.height = side;
     options.clip = clip;
-    options.folder = folder;
+    options.folders = folders;
     options.draw.background = glm::vec4(0.0f);
     return options;
 }
 
 std::vector<std::byte> animate(viewer::PictureMaker& maker, const Clip& clip) {
-    maker.change(options_of(kClipSide, &clip, {}));
+    maker.change(options_of(kClipSide, &clip, ReadableFolders()));
     const double length = static_cast<double>(clip.end) - static_cast<double>(clip.start);
     if (!(length > 0.0)) return viewer::encode_png(maker.draw(clip.start));
     const auto file = viewer::make_webp(kClipSide, kClipSide);
@@ -40,7 +40,7 @@ std::vector<std::byte> animate(viewer::PictureMaker& maker, const Clip& clip) {
 
 }  // namespace
 
-PagePictures draw_page_pictures(Bytes file, const std::filesystem::path& folder) {
+PagePictures draw_page_pictures(Bytes file, const ReadableFolders& folders) {
     PagePictures pictures;
     const Result<Model> model = Model::from_memory(file);
     if (!model) {
@@ -48,7 +48,7 @@ PagePictures draw_page_pictures(Bytes file, const std::filesystem::path& folder)
         return pictures;
     }
     try {
-        viewer::PictureMaker maker(*model, options_of(kStillSide, nullptr, folder), [](const std::string&) {});
+        viewer::PictureMaker maker(*model, options_of(kStillSide, nullptr, folders), [](const std::string&) {});
         pictures.list.push_back({{}, false, "image/png", viewer::encode_png(maker.draw(0.0f))});
         std::size_t bytes = pictures.list.back().bytes.size();
         const auto clips = model->clips();
@@ -73,7 +73,7 @@ PagePictures draw_page_pictures(Bytes file, const std::filesystem::path& folder)
 
 namespace bendy::cli {
 
-PagePictures draw_page_pictures(Bytes /*file*/, const std::filesystem::path& /*folder*/) {
+PagePictures draw_page_pictures(Bytes /*file*/, const ReadableFolders& /*folders*/) {
     return {{}, 0, "this program was built without the viewer"};
 }
 

@@ -21,6 +21,10 @@ void Report::add_source(const std::filesystem::path& file) {
     if (known_sources_.insert(file).second) sources_.push_back({file, stamp_of(file)});
 }
 
+void Report::add_embedded(EmbeddedFile file) {
+    if (known_embedded_.insert(file.file).second) embedded_.push_back(std::move(file));
+}
+
 FileStamp stamp_of(const std::filesystem::path& file) {
     std::error_code no_size;
     std::error_code no_time;

@@ -17,6 +17,7 @@ _RESERVED = {
     "--output": "out",
     "--rig": "rig",
     "--depfile": "data",
+    "--root": "data",
     "--force": None,
 }
 
@@ -33,6 +34,9 @@ def _bendy_model_impl(ctx):
     arguments.add("-o", output)
     arguments.add("--quiet")
     inputs = [ctx.file.src] + ctx.files.data
+    if ctx.files.data:
+        # The files that the source names may be in any package, and in a sandbox they are links: names in the execution root count.
+        arguments.add("--root", ".")
     if ctx.file.rig:
         arguments.add("--rig", ctx.file.rig)
         inputs.append(ctx.file.rig)
@@ -58,7 +62,7 @@ bendy_model = rule(
         ),
         "data": attr.label_list(
             allow_files = True,
-            doc = "Files that the source refers to: buffers and images. The conversion fails if one is missing.",
+            doc = "Files that the source refers to: buffers and images, of any package. The conversion fails if a buffer is missing.",
         ),
         "rig": attr.label(
             allow_single_file = [".json"],

@@ -318,11 +318,11 @@ class Chunk:
         return ("<table><tr><th>chunk</th><th>name</th><th>offset</th><th>bytes</th></tr>" + "".join(rows) + "</table>")
 
 
-def open(source, *, object=0, check_sums=True):
+def open(source, *, object=0, check_sums=True, root=None):
     """Opens a character. A path is mapped; what is no bendy file (glTF, X-files, Quake II models) is converted in memory, and
     Model.conversion has the warnings.
 
-    object: which object of the file. check_sums: False defers the check of all bytes to Model.check_sums.
+    object: which object of the file. check_sums: False defers the check of all bytes to Model.check_sums. root: as for convert.
     Raises FileNotFoundError and other OSErrors; MalformedError, InvalidError, UnsupportedError with code, path and offset;
     ConversionError.
     """
@@ -331,7 +331,7 @@ def open(source, *, object=0, check_sums=True):
     found = _source(source)
     conversion = None
     if found.format in ("gltf", "x", "md2"):
-        conversion = convert(source)
+        conversion = convert(source, root=root)
         found = conversion._source
     model = Model(found, object, check_sums)
     model.conversion = conversion
@@ -339,16 +339,17 @@ def open(source, *, object=0, check_sums=True):
 
 
 def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, skeleton="", compact=False, lod=False,
-            sort_vertices=False, images="embed", scene=None, instances=False, merge_clips=False, ticks_per_second=0.0, name="source.glb",
-            jobs=0, progress=None, overwrite=False):
+            sort_vertices=False, images="embed", root=None, scene=None, instances=False, merge_clips=False, ticks_per_second=0.0,
+            name="source.glb", jobs=0, progress=None, overwrite=False):
     """Converts glTF, X-files, Quake II models and bendy files to a bendy file, exactly unless compact. Returns a Conversion.
 
     output: the path to write; None: nothing is written, see File.save. The other arguments are the options of `bendy convert`.
     rig: a rig file. auto_rig: propose IK chains and constraints. auto_skin, skeleton: bind meshes without a skin to bones. compact:
-    True, or the largest error, "0.1mm" or "0.005%". lod: levels of detail. images: "embed" or "link". scene: of a glTF file, its name
-    or number. name: of a source that is bytes, in front the folder of the files that it refers to. jobs: the threads that make a compact
-    file, at most; 0: one for each processor. progress: is called with the share
-    that is done, 0 to 1, while a compact file is made; what it raises ends the call after the conversion.
+    True, or the largest error, "0.1mm" or "0.005%". lod: levels of detail. images: "embed" or "link". root: a folder whose files may
+    be read if the source names them; else only those in the source's own folder and below it are. scene: of a glTF file, its name or
+    number. name: of a source that is bytes, in front the folder of the files that it refers to; without one, only root counts. jobs:
+    the threads that make a compact file, at most; 0: one for each processor. progress: is called with the share that is done, 0 to 1,
+    while a compact file is made; what it raises ends the call after the conversion.
     Raises ConversionError with the place in the source, FileNotFoundError, FileExistsError unless overwrite, ValueError.
     """
     if images not in ("embed", "link"):
@@ -365,7 +366,7 @@ def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, s
         _must_exist(rig)
     bound = None if compact is False else "" if compact is True else compact
     made, report, sources = _bendy.convert(
-        file, found, "" if output is None else output, None if scene is None else str(scene), images == "embed", instances, rig,
+        file, found, "" if output is None else output, None if scene is None else str(scene), root or "", images == "embed", instances, rig,
         ticks_per_second, merge_clips, auto_rig, auto_skin, skeleton, bound, lod, sort_vertices, jobs, progress)
     if output is not None:
         _claim_bendy(output, overwrite, sources)
@@ -443,14 +444,15 @@ def export(source, output, *, lod=1.0, overwrite=False):
 
 
 def render(subject, clip=None, times=None, *, size=(512, 512), yaw=None, pitch=None, distance=1.0, bones=False, axes=False,
-           constraints=False, wireframe=False, background=None):
+           constraints=False, wireframe=False, background=None, root=None):
     """A picture without a display: (height, width, 4) uint8, red, green, blue, alpha, sRGB. With `times`, a list of seconds of the
     clip, one picture for each: (T, height, width, 4).
 
     subject: a Pose, or a source at rest or in a clip. times: also one number; None: the clip's start. size: width and height, pixels.
     yaw, pitch: degrees around the character, 0, 0 is its front; None: as in `bendy render`, 34 and 11. distance: 1 fits the whole clip
-    into the picture. background: None, "transparent", or red, green, blue, alpha, linear, 0 to 1. Raises RenderError without OpenGL
-    3.3, NotImplementedError if the package was built without the viewer, KeyError, ValueError.
+    into the picture. background: None, "transparent", or red, green, blue, alpha, linear, 0 to 1. root: a folder whose images may be
+    read, as for convert. Raises RenderError without OpenGL 3.3, NotImplementedError if the package was built without the viewer,
+    KeyError, ValueError.
     """
     _need_viewer()
     if isinstance(subject, Pose):
@@ -473,7 +475,7 @@ def render(subject, clip=None, times=None, *, size=(512, 512), yaw=None, pitch=N
     width, height = size
     yaw, pitch = (None if angle is None else _math.radians(angle) for angle in (yaw, pitch))
     pictures = _bendy.render(subject, clip, [float(time) for time in times], width, height, yaw, pitch, distance,
-                             None if background is None else tuple(background), drawn)
+                             None if background is None else tuple(background), drawn, root or "")
     return pictures[0] if is_one else pictures
 
 

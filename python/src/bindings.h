@@ -3,6 +3,7 @@
 #include <bendy/converter/report.h>
 #include <bendy/format/error.h>
 #include <bendy/format/file.h>
+#include <bendy/format/readable_folders.h>
 #include <bendy/runtime/bounds.h>
 #include <bendy/runtime/call_error.h>
 #include <bendy/runtime/model.h>
@@ -48,6 +49,13 @@ private:
     std::filesystem::path file_;
     bool is_mapped_ = true;
 };
+
+/// The folders in which the names in a source are looked for. Bytes have the folder in front of their name, if there is
+/// one. \param root  of the caller, or empty
+inline ReadableFolders folders_of(const Source& source, const std::filesystem::path& root) {
+    return source.is_mapped() || source.file().has_parent_path() ? ReadableFolders::of(source.file(), root)
+                                                                 : ReadableFolders(root);
+}
 
 /// An opened model with the bytes that it refers to. Everything made from a model holds one.
 class Character {

@@ -25,7 +25,7 @@ constexpr py::ssize_t kChannels = 4;
 py::array render_model(const py::object& subject, const py::object& clip, const std::vector<float>& times,
                        std::uint32_t width, std::uint32_t height, std::optional<float> yaw, std::optional<float> pitch,
                        float distance, const std::optional<std::array<float, 4>>& background,
-                       const std::vector<std::string>& drawn) {
+                       const std::vector<std::string>& drawn, const std::filesystem::path& root) {
     const std::optional<GivenPose> given = pose_of(subject);
     const SharedCharacter character = given ? given->character : character_of(subject);
     viewer::RenderOptions options;
@@ -54,8 +54,7 @@ py::array render_model(const py::object& subject, const py::object& clip, const 
         if (what == "constraints") options.draw.constraints = options.draw.targets = true;
         if (what == "wireframe") options.draw.wireframe = true;
     }
-    const std::filesystem::path& file = character->source->file();
-    options.folder = file.has_parent_path() ? file.parent_path() : ".";
+    options.folders = folders_of(*character->source, root);
     if (given) options.adjust = [&](Pose& pose) { pose = given->pose; };
 
     const auto pictures = static_cast<py::ssize_t>(times.size());
@@ -108,7 +107,7 @@ void bind_render(py::module_& module) {
     module.attr("has_viewer") = true;
     module.def("render", &render_model, py::arg("subject"), py::arg("clip"), py::arg("times"), py::arg("width"),
                py::arg("height"), py::arg("yaw"), py::arg("pitch"), py::arg("distance"), py::arg("background"),
-               py::arg("drawn"), "See bendy.render.");
+               py::arg("drawn"), py::arg("root"), "See bendy.render.");
     module.def("encode_png", &encode_picture, py::arg("picture"), "See bendy.encode_png.");
 }
 

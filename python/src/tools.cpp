@@ -56,15 +56,22 @@ py::list warnings_of(const converter::Report& report) {
 
 // Conversion.
 
+/// The name of a file, with a folder in front: names that the file holds start there.
+std::filesystem::path in_a_folder(const std::filesystem::path& file) {
+    return file.empty() || file.has_parent_path() ? file : "." / file;
+}
+
 py::tuple convert_source(const std::filesystem::path& file, const SourcePointer& source,
                          const std::filesystem::path& output, const std::optional<std::string>& scene,
-                         bool embed_images, bool instances, const std::optional<std::filesystem::path>& rig,
-                         double ticks_per_second, bool merge_clips, bool auto_rig, bool auto_skin,
-                         const std::string& skeleton, const std::optional<std::string>& max_error, bool lod,
-                         bool sort_vertices, unsigned jobs, const py::object& progress) {
+                         const std::filesystem::path& root, bool embed_images, bool instances,
+                         const std::optional<std::filesystem::path>& rig, double ticks_per_second, bool merge_clips,
+                         bool auto_rig, bool auto_skin, const std::string& skeleton,
+                         const std::optional<std::string>& max_error, bool lod, bool sort_vertices, unsigned jobs,
+                         const py::object& progress) {
     converter::ConvertOptions options;
     options.output = output;
     options.gltf.scene = scene;
+    options.gltf.root = root;
     options.gltf.embed_images = embed_images;
     options.gltf.instances = instances;
     options.rig = rig;
@@ -109,7 +116,7 @@ py::tuple convert_source(const std::filesystem::path& file, const SourcePointer&
         auto bytes = source == nullptr
                          ? converter::convert(file, options, report)
                          : converter::convert(std::vector<std::byte>(source->bytes().begin(), source->bytes().end()),
-                                              file, options, report);
+                                              source->is_mapped() ? in_a_folder(file) : file, options, report);
         if (bytes) json = cli::json_text(cli::converted_report(file, output, report, *bytes));
         return bytes;
     }();
@@ -119,7 +126,8 @@ py::tuple convert_source(const std::filesystem::path& file, const SourcePointer&
     for (const converter::SourceFile& one : report.sources()) {
         if (one.stamp.is_there) sources.append(py::cast(one.file));
     }
-    return py::make_tuple(std::make_shared<Source>(*std::move(converted), output), parse_json(json), sources);
+    return py::make_tuple(std::make_shared<Source>(*std::move(converted), in_a_folder(output)), parse_json(json),
+                          sources);
 }
 
 // Faults.
@@ -383,10 +391,10 @@ py::tuple export_source(const SourcePointer& source, const std::string& format, 
 
 void bind_tools(py::module_& module) {
     module.def("convert", &convert_source, py::arg("file"), py::arg("source"), py::arg("output"), py::arg("scene"),
-               py::arg("embed_images"), py::arg("instances"), py::arg("rig"), py::arg("ticks_per_second"),
-               py::arg("merge_clips"), py::arg("auto_rig"), py::arg("auto_skin"), py::arg("skeleton"),
-               py::arg("max_error"), py::arg("lod"), py::arg("sort_vertices"), py::arg("jobs"), py::arg("progress"),
-               "See bendy.convert.");
+               py::arg("root"), py::arg("embed_images"), py::arg("instances"), py::arg("rig"),
+               py::arg("ticks_per_second"), py::arg("merge_clips"), py::arg("auto_rig"), py::arg("auto_skin"),
+               py::arg("skeleton"), py::arg("max_error"), py::arg("lod"), py::arg("sort_vertices"), py::arg("jobs"),
+               py::arg("progress"), "See bendy.convert.");
     module.def(
         "format_named_by", [](const std::filesystem::path& file) { return text(cli::format_named_by(file)); },
         py::arg("file"), "The format that a file's suffix means, as \"binary glTF\"; empty if it has no meaning.");

@@ -12,7 +12,7 @@ class Option:
     """An option, a flag or, if it has no dashes, a positional argument."""
 
     names: list[str]
-    kind: str = ""  # TEXT, FLOAT, INT, UINT; "" for a flag
+    kind: str = ""  # TEXT, FOLDER, FLOAT, INT, UINT; "" for a flag
     choices: list[str] = field(default_factory=list)
     range: str = ""
     default: str = ""
@@ -33,7 +33,7 @@ class Option:
         if self.choices:
             return "|".join(self.choices)
         if self.files is not None:
-            return "FILE"
+            return "FOLDER" if self.kind == "FOLDER" else "FILE"
         return {"FLOAT": "NUMBER", "INT": "N", "UINT": "N"}.get(self.kind, self.kind)
 
     @property
@@ -182,6 +182,8 @@ def _read_option(left, about, command):
 
 
 def _files_of(option, command):
+    if option.kind == "FOLDER":
+        return []
     for name in option.names:
         if (command, name) in FILES:
             return FILES[command, name].split()

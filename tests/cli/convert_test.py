@@ -240,6 +240,79 @@ class LinkedImages(Case):
         self.assertEqual(self.bendy("validate", "m.bendy").stderr, b"")
 
 
+class OtherFiles(Case):
+    """What a source names is read from its own folder and below it, and from the root."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "in" / "sub").mkdir(parents=True)
+        (self.folder / "secret").write_bytes(b"-----BEGIN A KEY-----")
+        (self.folder / "in" / "link.png").symlink_to("../secret")
+        (self.folder / "in" / "folder").symlink_to("..")
+        (self.folder / "in" / "skin.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(32))
+
+    def write(self, uri, kind="images"):
+        file = GltfFile(scenes=[{"nodes": [0]}], nodes=[{"mesh": 0}])
+        corners = file.add([(0, 0, 0), (1, 0, 0), (0, 1, 0)], "VEC3")
+        file.document["meshes"] = [{"primitives": [{"attributes": {"POSITION": corners}, "material": 0}]}]
+        file.document["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+        file.document["textures"] = [{"source": 0}]
+        file.document["images"] = [{"uri": uri if kind == "images" else "skin.png"}]
+        path = file.write(self.folder / "in" / "m.gltf")
+        if kind == "buffers":
+            file.document["buffers"].append({"uri": uri, "byteLength": 4})
+            path.write_text(json.dumps(file.document), encoding="utf-8")
+        return "in/m.gltf"
+
+    def outside(self):
+        secret = self.folder / "secret"
+        return ["../secret", "..%2fsecret", "%2e%2e/secret", "sub/../../secret", "link.png", "folder/secret", str(secret),
+                secret.as_uri(), "/etc/passwd", "file:///etc/passwd"]
+
+    def test_an_image_outside_stays_a_link(self):
+        for uri in self.outside():
+            result = self.bendy("convert", self.write(uri), "-o", "m.bendy")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(f"'{uri}' is outside the source's folder: --root FOLDER allows", result.stderr.decode())
+            self.assertNotIn(b"A KEY", (self.folder / "m.bendy").read_bytes())
+            self.assertNotIn(b"embedded", result.stdout)
+            self.assertIn(uri.encode(), (self.folder / "m.bendy").read_bytes())
+
+    def test_a_buffer_outside_is_an_error_in_every_command(self):
+        for uri in self.outside():
+            self.assertIn(f"'{uri}' is outside the source's folder: --root FOLDER allows",
+                          self.failed("convert", self.write(uri, "buffers"), "-o", "m.bendy", "-q"))
+            self.assertIn("is outside", self.failed("pose", "in/m.gltf"))
+        self.assertIn(b"is outside", self.bendy("convert", "in", "-o", "out", "-q").stderr)
+
+    def test_a_texture_of_an_x_file_too(self):
+        (self.folder / "in" / "m.x").write_text(
+            'xof 0303txt 0032\nMesh { 3; 0;0;0;, 1;0;0;, 0;1;0;; 1; 3;0,1,2;; MeshMaterialList { 1; 1; 0;; Material { 1;1;1;1;;'
+            ' 0; 0;0;0;; 0;0;0;; TextureFilename { "../secret"; } } } }', encoding="ascii")
+        result = self.bendy("convert", "in/m.x", "-o", "m.bendy")
+        self.assertIn(b"'../secret' is outside the source's folder: --root FOLDER allows", result.stderr)
+        self.assertNotIn(b"A KEY", (self.folder / "m.bendy").read_bytes())
+        self.assertIn(b"secret", self.done("convert", "in/m.x", "-o", "m.bendy", "--root", "."))
+        self.assertIn(b"A KEY", (self.folder / "m.bendy").read_bytes())
+
+    def test_the_root_allows_more(self):
+        for uri in self.outside()[:-2]:
+            result = self.bendy("convert", self.write(uri), "-o", "m.bendy", "--root", ".")
+            self.assertIn(b"embedded file is no image of a known kind: ", result.stderr)
+            self.assertIn(b"A KEY", (self.folder / "m.bendy").read_bytes())
+            self.done("convert", self.write(uri, "buffers"), "-o", "m.bendy", "-q", "--root", self.folder)
+            self.done("pose", "in/m.gltf", "--root", ".")
+        self.done("convert", "in", "-o", "out", "-q", "--root", ".")
+        self.assertIn(b"is outside", self.bendy("convert", "in", "-o", "out", "-q").stderr)  # another root is another recipe
+        self.assertIn("--root", self.misused("convert", "in", "--root", "none"))
+
+    def test_what_is_embedded_is_named(self):
+        self.assertIn("  embedded       in/skin.png (40 bytes, image/png)\n", self.done("convert", self.write("skin.png")).decode())
+        report = json.loads(self.done("convert", "in/m.gltf", "--json"))
+        self.assertEqual(report["embedded"], [{"file": "in/skin.png", "bytes": 40, "mediaType": "image/png"}])
+        self.assertNotIn("embedded", self.done("convert", "in/m.gltf", "--images", "link").decode())
+
+
 class ConvertDepfile(Case):
     def write_odd_model(self):
         """A model in files whose names are hard to write in a rule."""

@@ -455,13 +455,17 @@ class StandardStreams(OutputCase):
                   input=self.made["glb"].read_bytes())
         self.assertIn(b"standard input: ", self.bendy("convert", "-", "-o", "x", input=b"{").stderr)
 
-    def test_what_piped_gltf_refers_to_is_relative_to_the_working_directory(self):
-        self.done("export", "-q", self.made["bendy"], "-o", "m.gltf")
-        text = (self.folder / "m.gltf").read_bytes()
-        self.done("convert", "-q", "-", "-o", "out.bendy", input=text)
+    def test_what_piped_gltf_refers_to_is_in_the_root(self):
+        (self.folder / "sub").mkdir()
+        self.done("export", "-q", self.made["bendy"], "-o", "sub/m.gltf")
+        text = (self.folder / "sub" / "m.gltf").read_bytes()
+        self.assertIn("the source has no folder in which to look for 'm.bin': --root FOLDER gives it one",
+                      self.failed("convert", "-", "-o", "new.bendy", input=text))
+        self.done("convert", "-q", "-", "-o", "out.bendy", "--root", "sub", input=text)
         self.assertEqual((self.folder / "out.bendy").read_bytes(), self.made["bendy"].read_bytes())
-        (self.folder / "m.bin").unlink()
-        self.assertIn("m.bin", self.failed("convert", "-", "-o", "new.bendy", input=text))
+        self.assertIn(b"\nv ", self.done("pose", "-", "--root", "sub", input=text))
+        (self.folder / "sub" / "m.bin").unlink()
+        self.assertIn("m.bin", self.failed("convert", "-", "-o", "new.bendy", "--root", "sub", input=text))
 
     def test_formats_where_no_name_says_them(self):
         for command, formats in (("pose", ("obj", "ply", "json")), ("render", ("png", "gif", "webp"))):

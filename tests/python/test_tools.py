@@ -32,6 +32,26 @@ def test_compact_conversion(compact, mannequin):
         bendy.convert(ROOT / "examples/mannequin.glb", compact="1 parsec")
 
 
+def test_files_outside_the_sources_folder(tmp_path):
+    inner = tmp_path / "inner"
+    inner.mkdir()
+    (tmp_path / "secret").write_bytes(bytes(12))
+    text = json.dumps({"asset": {"version": "2.0"}, "nodes": [{}], "buffers": [{"byteLength": 12, "uri": "../secret"}],
+                       "images": [{"uri": "..%2fsecret"}]})
+    source = inner / "m.gltf"
+    source.write_text(text, encoding="utf-8")
+    for refused in (source, text.encode()):
+        with pytest.raises(bendy.ConversionError, match="--root FOLDER"):
+            bendy.convert(refused)
+        with pytest.raises(bendy.ConversionError, match="--root FOLDER"):
+            bendy.open(refused)
+    made = bendy.convert(source, root=tmp_path)
+    assert [os.path.basename(one["file"]) for one in made.report["embedded"]] == ["secret"]
+    assert any("no image" in warning["message"] for warning in made.warnings)
+    bendy.open(source, root=str(tmp_path))
+    bendy.convert(text.encode(), root=tmp_path, name=str(source))
+
+
 def test_conversions_that_fail(tmp_path):
     broken = tmp_path / "broken.gltf"
     broken.write_text('{"asset": {"version": "2.0"}, "scenes": [{"nodes": [5]}]}')

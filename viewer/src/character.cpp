@@ -28,15 +28,15 @@ Box box_of(const Model& model) {
 
 }  // namespace
 
-Character::Character(std::vector<std::byte> file_bytes, std::string name, const std::filesystem::path& folder,
-                     bool is_demo, const Warn& warn)
+Character::Character(std::vector<std::byte> file_bytes, std::string name, const ReadableFolders& folders, bool is_demo,
+                     const Warn& warn)
     : bytes(std::move(file_bytes)), title(std::move(name)) {
     model = std::make_unique<Model>(open_model(bytes, title));
     if (is_demo && model->chains().empty()) throw ViewerError(title + ": has no IK chain");
     Result<ChunkTree> chunks = read_chunk_tree(bytes);
     if (chunks) tree = *std::move(chunks);
     box = box_of(*model);
-    renderer = std::make_unique<Renderer>(*model, folder, warn);
+    renderer = std::make_unique<Renderer>(*model, folders, warn);
     renderer->set_box(box);
     player = std::make_unique<Player>(*model);
     if (is_demo) demo = std::make_unique<Demo>(*model);

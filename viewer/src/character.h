@@ -17,7 +17,7 @@ namespace bendy::viewer {
 /// What the window shows: a file's bytes and everything made from them. It cannot be moved.
 struct Character {
     /// Throws ViewerError if the file is invalid. `file_bytes` is the whole file; `is_demo`: it is the tentacle.
-    Character(std::vector<std::byte> file_bytes, std::string name, const std::filesystem::path& folder, bool is_demo,
+    Character(std::vector<std::byte> file_bytes, std::string name, const ReadableFolders& folders, bool is_demo,
               const Warn& warn);
     Character(const Character&) = delete;
     Character& operator=(const Character&) = delete;

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
@@ -48,23 +47,6 @@ ShownSurface shown_surface(const MaterialView& material) {
     surface.dielectric_at_grazing = std::min(number_of(member(specular, "specularFactor")).value_or(1.0f), 1.0f);
     surface.dielectric = glm::min(from_ahead * from_ahead * colour, glm::vec3(1.0f)) * surface.dielectric_at_grazing;
     return surface;
-}
-
-/// Decodes "a%20b" to "a b"; a percent sign without two digits stays.
-std::string percent_decoded(std::string_view text) {
-    std::string out;
-    for (std::size_t at = 0; at < text.size(); ++at) {
-        unsigned byte = 0;
-        const char* digits = text.data() + at + 1;
-        if (text[at] == '%' && text.size() - at > 2 &&
-            std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2 && byte != 0) {
-            out += static_cast<char>(byte);
-            at += 2;
-        } else {
-            out += text[at];
-        }
-    }
-    return out;
 }
 
 /// For all textures together: half a gigabyte.
@@ -112,16 +94,8 @@ std::vector<ShownSurface> shown_surfaces(const Model& model) {
     return surfaces;
 }
 
-std::optional<std::filesystem::path> linked_file(const std::filesystem::path& folder, std::string_view uri) {
-    if (folder.empty() || uri.empty() || uri.find(':') != std::string_view::npos) return std::nullopt;
-    const std::filesystem::path file = percent_decoded(uri);
-    const bool leads_out = std::any_of(file.begin(), file.end(), [](const auto& part) { return part == ".."; });
-    if (file.is_absolute() || leads_out) return std::nullopt;
-    return folder / file;
-}
-
-TextureLoader::TextureLoader(const Model& model, std::filesystem::path folder, Warn warn)
-    : model_(&model), folder_(std::move(folder)), warn_(std::move(warn)), pixels_left_(kMostTexels) {
+TextureLoader::TextureLoader(const Model& model, ReadableFolders folders, Warn warn)
+    : model_(&model), folders_(std::move(folders)), warn_(std::move(warn)), pixels_left_(kMostTexels) {
     constexpr std::uint8_t kLight = 170;
     constexpr std::uint8_t kDark = 110;
     upload_pixels(white_.name(), {1, 1, {255, 255, 255, 255}}, false);
@@ -164,8 +138,10 @@ bool TextureLoader::upload(std::uint32_t number, const ImageView& image, bool sr
     MappedFile linked;
     Bytes bytes = image.bytes;
     if (bytes.empty()) {
-        const auto path = linked_file(folder_, image.uri);
-        problem = "its image is not in this file, and is not read from outside its folder";
+        const auto path = folders_.find(image.uri);
+        problem = "its image is not in this file";
+        if (!path && path.error() == LinkProblem::outside)
+            problem += ", and is not read from outside its folder: --root FOLDER allows a folder that it is in";
         if (!path) return false;
         auto opened = MappedFile::open(*path);
         problem = "its image " + path->string() + " cannot be read";

@@ -32,9 +32,8 @@ std::vector<ShownSurface> shown_surfaces(const Model& model);
 /// A model's textures on the graphics processor.
 class TextureLoader {
 public:
-    /// `folder`: contains the images that the file links to; nothing outside it is read. Empty: no linked image is
-    /// read.
-    TextureLoader(const Model& model, std::filesystem::path folder, Warn warn);
+    /// `folders`: those of the images that the file links to; nothing outside them is read.
+    TextureLoader(const Model& model, ReadableFolders folders, Warn warn);
 
     /// Loads a texture once, as sRGB or as plain numbers, or warns that it cannot be shown. Do not call it while
     /// drawing: uploading binds the texture.
@@ -49,7 +48,7 @@ private:
     bool upload(std::uint32_t number, const ImageView& image, bool srgb, GlTexture& texture, std::string& problem);
 
     const Model* model_;
-    std::filesystem::path folder_;
+    ReadableFolders folders_;
     Warn warn_;
     GlTexture white_;
     GlTexture check_;

@@ -27,7 +27,7 @@ Box box_of(const Model& model, const RenderOptions& options) {
 /// In the order of construction; the context is destroyed after everything that uses it.
 struct PictureMaker::Parts {
     Parts(const Model& model, const RenderOptions& wanted, const Warn& warn)
-        : frame(wanted.width, wanted.height), renderer(model, wanted.folder, warn), pose(model) {
+        : frame(wanted.width, wanted.height), renderer(model, wanted.folders, warn), pose(model) {
         set(wanted);
         if (!has_surface(model) && model.joints().empty()) warn("there is nothing to draw: no surface and no joints");
     }

@@ -79,12 +79,12 @@ std::vector<glm::vec3> draw_centres(const Model& model) {
 
 }  // namespace
 
-Renderer::Renderer(const Model& model, const std::filesystem::path& folder, const Warn& warn)
+Renderer::Renderer(const Model& model, const ReadableFolders& folders, const Warn& warn)
     : model_(&model),
       surfaces_(shown_surfaces(model)),
       level_(model),
       buffers_(model),
-      textures_(model, folder, warn),
+      textures_(model, folders, warn),
       overlay_(model),
       surface_(kSkinShader, kSurfaceShader),
       flat_(kSkinShader, kFlatShader),

@@ -18,7 +18,7 @@ namespace bendy::viewer {
 /// Draws one model into the bound framebuffer, for pictures and for the window. The model must outlive it.
 class Renderer {
 public:
-    Renderer(const Model& model, const std::filesystem::path& folder, const Warn& warn);
+    Renderer(const Model& model, const ReadableFolders& folders, const Warn& warn);
 
     /// Sets the box that the camera is fitted to: bones, axes and marks are drawn in proportion to it.
     void set_box(const Box& box) { overlay_.set_size(2.0f * box.radius()); }

@@ -65,7 +65,7 @@ Window::Window(const ViewOptions& options) : options_(options) {
         if (options.file.empty()) {
             character_ =
                 std::make_unique<Character>(std::vector<std::byte>(options.tentacle.begin(), options.tentacle.end()),
-                                            "Bendy Tentacle Demo", std::filesystem::path(), true, options.warn);
+                                            "Bendy Tentacle Demo", ReadableFolders(), true, options.warn);
         } else {
             show(options.file);
         }
@@ -126,9 +126,8 @@ void Window::open_gl() {
 }
 
 void Window::show(const std::filesystem::path& file) {
-    auto character =
-        std::make_unique<Character>(options_.open(file), file.filename().string(),
-                                    file.has_parent_path() ? file.parent_path() : ".", false, options_.warn);
+    auto character = std::make_unique<Character>(options_.open(file), file.filename().string(),
+                                                 ReadableFolders::of(file, options_.root), false, options_.warn);
     character_ = std::move(character);
     level_ = 1.0f;
     draw_.wireframe = turntable_ = false;

@@ -131,6 +131,7 @@ std::string text_of(const Json& request, const char* key) {
 Json run_convert(const Json& request, Made& made) {
     cli::ConvertArguments arguments;
     arguments.scene = text_of(request, "scene");
+    arguments.root = "/";  // all files here are the caller's
     arguments.images = request.value("images", arguments.images);
     arguments.instances = request.value("instances", false);
     arguments.rig = text_of(request, "rig");

@@ -94,6 +94,9 @@ Result<Scene, ImportError> import_source(std::optional<Buffer> source, const std
                                          const ConvertOptions& options, const std::optional<Rig>& rig, Report& report) {
     if (std::string why = source ? why_not_convertible(*source, file) : why_not_convertible(file); !why.empty())
         return ImportError{{}, std::move(why)};
+    const ReadableFolders folders =
+        source ? folders_of_bytes(file, options.gltf.root) : ReadableFolders::of(file, options.gltf.root);
+    const std::filesystem::path named = source || file.has_parent_path() ? file : "." / file;
     if (!source) {
         auto bytes = without_throwing<Buffer>([&] { return read_file(file, {}); });
         if (!bytes) return bytes.error();
@@ -104,11 +107,11 @@ Result<Scene, ImportError> import_source(std::optional<Buffer> source, const std
     if (!importer.takes_scene && options.gltf.scene) return ImportError{{}, "a scene can be chosen in glTF files only"};
     if (!importer.takes_ticks && options.ticks_per_second != 0.0)
         return ImportError{{}, "ticks per second can be set for X-files only"};
-    auto scene = importer.import(*std::move(source), file, options, report);
+    auto scene = importer.import(*std::move(source), named, options, report);
     if (!scene) return scene;
     // Where images are to be embedded, a link is what could not be read: it stays what the source says.
     if (format == SourceFormat::bendy || !options.gltf.embed_images)
-        move_links(*scene, file, options.output.empty() ? file : options.output, report);
+        move_links(*scene, file, options.output.empty() ? file : options.output, folders, report);
     if (format == SourceFormat::gltf) {
         attach_rigs(*scene, rig, options.auto_rig, report);
     } else {

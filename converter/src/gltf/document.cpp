@@ -3,8 +3,8 @@
 #include "failure.h"
 #include "meshopt.h"
 
-#include <fstream>
-#include <system_error>
+#include <string>
+#include <utility>
 
 namespace bendy::converter::gltf {
 namespace {
@@ -116,8 +116,7 @@ bool is_fallback(const Json& buffer) {
 
 }  // namespace
 
-Buffers::Buffers(const Json& root, const Container& container, const std::filesystem::path& source, Budget& budget,
-                 Report& report) {
+Buffers::Buffers(const Json& root, const Container& container, NamedFiles& files) {
     const Json& buffers = array_of(root, "buffers");
     buffers_.resize(buffers.size());
     for (std::size_t i = 0; i < buffers.size(); ++i) {
@@ -128,15 +127,11 @@ Buffers::Buffers(const Json& root, const Container& container, const std::filesy
             const auto& text = uri->get_ref<const std::string&>();
             if (is_data_uri(text)) {
                 buffer.owned = decode_data_uri(text, place + ".uri").bytes;
+                buffer.bytes = buffer.owned;
             } else {
-                const auto file = resolve_uri(text, source, place + ".uri");
-                report.add_source(file);
-                std::error_code ignored;
-                if (is_fallback(buffers[i]) && !std::filesystem::exists(file, ignored)) continue;
-                buffer.owned = read_file(file, place + ".uri", length);
-                budget.add_source(buffer.owned.size());
+                if (is_fallback(buffers[i]) && !files.exists(text, place + ".uri")) continue;
+                buffer.bytes = files.read(text, place + ".uri", length);
             }
-            buffer.bytes = buffer.owned;
         } else if (i == 0 && container.has_bin) {
             buffer.bytes = container.bin;
         } else {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "check_json.h"
+#include "source/named_files.h"
 #include "source/source_file.h"
 #include "tinygltf.h"
 
@@ -8,7 +9,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,10 +45,9 @@ struct CompressedView {
 /// view is checked against its buffer; compressed views are decoded when they are first asked for.
 class Buffers {
 public:
-    /// `container` must outlive this. Fails at the buffer or view that is wrong; a buffer without any data is an error
-    /// only when something reads it (fallback buffers of meshopt compression have none).
-    Buffers(const Json& root, const Container& container, const std::filesystem::path& source, Budget& budget,
-            Report& report);
+    /// `container` and `files` must outlive this. Fails at the buffer or view that is wrong; a buffer without any data
+    /// is an error only when something reads it (fallback buffers of meshopt compression have none).
+    Buffers(const Json& root, const Container& container, NamedFiles& files);
 
     /// The decoded bytes of a view; `index` must be in range.
     std::span<const std::byte> view(std::size_t index, Budget& budget);
@@ -82,7 +81,7 @@ private:
 /// A source file, opened and checked: what all parts of the importer read from. The structure comes from `model`;
 /// extensions, extras, images and the indices of primitives from `json`, where elements have the same numbers.
 struct Document {
-    std::filesystem::path file;
+    NamedFiles& files;
     const Json& json;
     const tinygltf::Model& model;
     Buffers& buffers;

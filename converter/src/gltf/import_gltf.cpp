@@ -19,15 +19,15 @@ namespace bendy::converter {
 namespace gltf {
 namespace {
 
-Scene import(std::vector<std::byte> bytes, const std::filesystem::path& file, const GltfOptions& options,
-             Report& report) {
+Scene import(std::vector<std::byte> bytes, ReadableFolders folders, const GltfOptions& options, Report& report) {
     const Container container = open_container(std::move(bytes));
     const Json root = parse_json(container.json, options.instances, report);
     Budget budget;
     budget.add_source(container.bytes.size());
-    Buffers buffers(root, container, file, budget, report);
+    NamedFiles files(std::move(folders), budget, report);
+    Buffers buffers(root, container, files);
     const tinygltf::Model model = read_structure(root);
-    const Document document{file, root, model, buffers, budget, report};
+    const Document document{files, root, model, buffers, budget, report};
 
     Scene scene;
     report_extensions(root, report);
@@ -55,10 +55,10 @@ std::string one_line(std::string text) {
 
 /// \param read  gives the file's bytes, or fails
 template <class Read>
-Result<Scene, ImportError> import_from(const Read& read, const std::filesystem::path& file, const GltfOptions& options,
+Result<Scene, ImportError> import_from(const Read& read, ReadableFolders folders, const GltfOptions& options,
                                        Report& report) {
     try {
-        return import(read(), file, options, report);
+        return import(read(), std::move(folders), options, report);
     } catch (const Failure& failure) {
         return ImportError{one_line(failure.error.place), one_line(failure.error.message)};
     } catch (const std::bad_alloc&) {
@@ -72,12 +72,13 @@ Result<Scene, ImportError> import_from(const Read& read, const std::filesystem::
 }  // namespace gltf
 
 Result<Scene, ImportError> import_gltf(const std::filesystem::path& file, const GltfOptions& options, Report& report) {
-    return gltf::import_from([&] { return read_file(file, {}); }, file, options, report);
+    return gltf::import_from([&] { return read_file(file, {}); }, ReadableFolders::of(file, options.root), options,
+                             report);
 }
 
 Result<Scene, ImportError> import_gltf(std::vector<std::byte> bytes, const std::filesystem::path& file,
                                        const GltfOptions& options, Report& report) {
-    return gltf::import_from([&] { return std::move(bytes); }, file, options, report);
+    return gltf::import_from([&] { return std::move(bytes); }, folders_of_bytes(file, options.root), options, report);
 }
 
 }  // namespace bendy::converter

@@ -203,19 +203,15 @@ public:
 
 private:
     void read_uri(const std::string& uri, const std::string& place, Image& image) const {
-        try {
-            if (is_data_uri(uri)) {
-                DataUri data = decode_data_uri(uri, place);
-                if (image.media_type.empty()) image.media_type = std::move(data.media_type);
-                image.bytes = std::move(data.bytes);
-                return;
-            }
+        if (!is_data_uri(uri)) {
             image.uri = uri;
-            if (!embed_) return;
-            const auto file = resolve_uri(uri, document_.file, place);
-            document_.report.add_source(file);
-            image.bytes = read_file(file, place);
-            image.uri.clear();
+            if (embed_) document_.files.embed(image, place);
+            return;
+        }
+        try {
+            DataUri data = decode_data_uri(uri, place);
+            if (image.media_type.empty()) image.media_type = std::move(data.media_type);
+            image.bytes = std::move(data.bytes);
         } catch (const Failure& failure) {
             // An image is not the motion: the character converts without it.
             document_.report.warn("image could not be read (" + failure.error.message + ')', place);

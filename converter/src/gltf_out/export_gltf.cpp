@@ -148,7 +148,8 @@ GltfAsset export_bytes(Bytes bytes, const std::filesystem::path& buffer_file, Re
                        const ExportOptions& options, const std::filesystem::path& bendy_file) {
     Result<Scene, ImportError> scene = import_bendy(bytes, report);
     if (!scene) throw Failure{scene.error()};
-    if (!bendy_file.empty() && !options.output.empty()) move_links(*scene, bendy_file, options.output, report);
+    if (!bendy_file.empty() && !options.output.empty())
+        move_links(*scene, bendy_file, options.output, ReadableFolders::of(bendy_file), report);
     if (!options.vertices.empty()) keep_level(*scene, options.vertices);
     // Read again for the rig, which is written from the records.
     Result<ChunkTree> tree = read_chunk_tree(bytes);

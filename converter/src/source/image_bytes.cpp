@@ -21,6 +21,20 @@ std::string media_type_of(std::span<const std::byte> bytes) {
     return {};
 }
 
+bool may_be_tga(std::span<const std::byte> bytes) {
+    constexpr std::size_t kHeader = 18;
+    if (bytes.size() <= kHeader) return false;
+    const auto at = [&](std::size_t place) { return std::to_integer<unsigned>(bytes[place]); };
+    const unsigned kind = at(2) & ~8u;  // 8: in runs
+    const unsigned depth = at(16);
+    return at(1) <= 1 && kind >= 1 && kind <= 3 && (at(1) == 1) == (kind == 1) && at(12) + at(13) > 0 &&
+           at(14) + at(15) > 0 && (depth == 8 || depth == 15 || depth == 16 || depth == 24 || depth == 32);
+}
+
+bool is_image(std::span<const std::byte> bytes) {
+    return !media_type_of(bytes).empty() || may_be_tga(bytes);
+}
+
 namespace {
 
 using Pixels = std::span<const std::byte>;

@@ -27,7 +27,8 @@ Imported from_bendy(Buffer bytes, const Path& /*file*/, const ConvertOptions& /*
 
 #ifdef BENDY_X_FILES
 Imported from_x(Buffer bytes, const Path& file, const ConvertOptions& options, Report& report) {
-    return import_x(as_text(bytes), file, {options.gltf.embed_images, options.ticks_per_second}, report);
+    return import_x(as_text(bytes), file, {options.gltf.embed_images, options.gltf.root, options.ticks_per_second},
+                    report);
 }
 #endif
 

@@ -146,33 +146,14 @@ DataUri decode_data_uri(std::string_view uri, const std::string& place) {
     return data;
 }
 
-std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem::path& source,
-                                  const std::string& place) {
-    if (uri.empty()) fail(place, "the URI is empty");
-    if (const std::size_t colon = uri.find(':'); colon != std::string::npos && uri.find('/') > colon) {
-        fail(place, "only files beside the source and data URIs are read, not " + quote(uri));
-    }
-    const auto path_of = [&](const std::string& name) {
-        std::filesystem::path path;
-        try {
-            path = std::u8string(name.begin(), name.end());
-        } catch (const std::system_error&) {  // on Windows, where names are UTF-16
-            fail(place, "the file name is not UTF-8: " + quote(uri));
-        }
-        if (path.is_absolute() || path.has_root_path() || name.find('\0') != std::string::npos) {
-            fail(place, "absolute paths are refused: " + quote(uri));
-        }
-        return source.parent_path() / path;
-    };
-    // Names with a bare '%' exist; and so do files whose real name looks percent-encoded.
-    const auto decoded = percent_decode(uri);
-    auto path = path_of(decoded.value_or(uri));
-    std::error_code ignored;
-    if (decoded && *decoded != uri && !std::filesystem::exists(path, ignored)) {
-        auto literal = path_of(uri);
-        if (std::filesystem::exists(literal, ignored)) return literal;
-    }
-    return path;
+ReadableFolders folders_of_bytes(const std::filesystem::path& name, const std::filesystem::path& root) {
+    return name.has_parent_path() ? ReadableFolders::of(name, root) : ReadableFolders(root);
+}
+
+std::string why_outside(const ReadableFolders& folders, std::string_view uri) {
+    if (folders.start().empty())
+        return "the source has no folder in which to look for " + quote(uri) + ": --root FOLDER gives it one";
+    return quote(uri) + " is outside the source's folder: --root FOLDER allows a folder that it is in";
 }
 
 std::string uri_of(const std::filesystem::path& path) {
@@ -200,34 +181,18 @@ std::string to_utf8(std::string_view text) {
     return converted;
 }
 
-std::optional<std::filesystem::path> linked_file(std::string_view uri, const std::filesystem::path& file) {
-    constexpr std::string_view kFile = "file://";
-    try {
-        if (!uri.starts_with(kFile) && !uri.starts_with('/')) return resolve_uri(std::string(uri), file, {});
-        std::string_view path = uri;
-        if (uri.starts_with(kFile)) path.remove_prefix(kFile.size());
-        const bool has_drive = path.size() > 2 && path[0] == '/' && path[2] == ':';
-        if (has_drive) path.remove_prefix(1);
-        const std::string name = percent_decode(path).value_or(std::string(path));
-        return std::filesystem::path(std::u8string(name.begin(), name.end()));
-    } catch (const Failure&) {  // of another scheme, or no name of a file
-        return std::nullopt;
-    } catch (const std::exception&) {
-        return std::nullopt;
-    }
-}
-
-void move_links(Scene& scene, const std::filesystem::path& from, const std::filesystem::path& to, Report& report) {
+void move_links(Scene& scene, const std::filesystem::path& from, const std::filesystem::path& to,
+                const ReadableFolders& folders, Report& report) {
     const std::filesystem::path source = folder_of(from);
     const std::filesystem::path folder = folder_of(to);
     for (std::size_t i = 0; i < scene.images.size(); ++i) {
         Image& image = scene.images[i];
         if (!image.bytes.empty() || image.uri.empty()) continue;
         const std::string place = at("images", i);
-        const auto file = linked_file(image.uri, from);
+        const auto file = linked_file(image.uri, from.parent_path());
         if (!file) continue;  // http, for one
         std::error_code ignored;
-        if (!std::filesystem::exists(*file, ignored))
+        if (const auto found = folders.find(image.uri); found && !std::filesystem::exists(*found, ignored))
             report.warn("linked image does not exist: " + quote(image.uri), place);
         const bool is_relative = !image.uri.starts_with('/') && !image.uri.starts_with("file:");
         if (source != folder && is_relative) image.uri = uri_between(folder, *file);

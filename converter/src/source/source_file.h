@@ -4,6 +4,7 @@
 
 #include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>
+#include <bendy/format/readable_folders.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -54,10 +55,11 @@ struct DataUri {
 /// RFC 2397, base64 or percent-encoded. Fails at `place`.
 DataUri decode_data_uri(std::string_view uri, const std::string& place);
 
-/// The file that a relative URI means, beside `source`. `..` is allowed (exporters write it); absolute paths and
-/// schemes are not: fails at `place`.
-std::filesystem::path resolve_uri(const std::string& uri, const std::filesystem::path& source,
-                                  const std::string& place);
+/// The folders of bytes that come without a file: of a name without a folder in front, only the root.
+ReadableFolders folders_of_bytes(const std::filesystem::path& name, const std::filesystem::path& root);
+
+/// What to say of a name that `folders` do not allow: it, and the option that does.
+std::string why_outside(const ReadableFolders& folders, std::string_view uri);
 
 /// A relative path as a URI: percent-encoded where it must be.
 std::string uri_of(const std::filesystem::path& path);
@@ -68,7 +70,9 @@ std::string to_utf8(std::string_view text);
 /// Makes the links to images, which are relative to the folder of `from`, relative to that of `to`: percent-encoded,
 /// with forward slashes; as a file URI where no relative path leads there (another drive). Between files of one folder
 /// links stay as they are, as do those with a scheme and absolute ones. Warns of links to files that do not exist, and
-/// of those that lead out of the folder, which the viewer does not follow.
-void move_links(Scene& scene, const std::filesystem::path& from, const std::filesystem::path& to, Report& report);
+/// of those that lead out of the folder, which the viewer does not follow; files that `folders`, those of `from`, do
+/// not allow are not looked for.
+void move_links(Scene& scene, const std::filesystem::path& from, const std::filesystem::path& to,
+                const ReadableFolders& folders, Report& report);
 
 }  // namespace bendy::converter

@@ -143,7 +143,7 @@ void set_tick(XFile& file, double stated, Report& report) {
     }
 }
 
-Scene import(std::string_view bytes, const std::filesystem::path& file, const XOptions& options, Report& report) {
+Scene import(std::string_view bytes, ReadableFolders folders, const XOptions& options, Report& report) {
     Budget budget;
     budget.add_source(bytes.size());
     std::string plain;
@@ -154,7 +154,8 @@ Scene import(std::string_view bytes, const std::filesystem::path& file, const XO
     const FrameIndex frames(source);
     import_joints(source, scene, report);
     import_rig(source, frames, scene, report);
-    import_materials(source, file, options.embed_images, scene, report);
+    NamedFiles files(std::move(folders), budget, report);
+    import_materials(source, files, options.embed_images, scene, report);
     import_clips(source, frames, scene, report);
     import_meshes(source, frames, budget, scene, report);
     if (scene.joints.empty()) fail({}, "there is nothing to convert: the file has neither frames nor meshes");
@@ -166,14 +167,16 @@ Scene import(std::string_view bytes, const std::filesystem::path& file, const XO
 
 Result<Scene, ImportError> import_x(std::string_view bytes, const std::filesystem::path& file, const XOptions& options,
                                     Report& report) {
-    return without_throwing<Scene>(
-        [&]() -> Result<Scene, ImportError> { return x::import(bytes, file, options, report); });
+    return without_throwing<Scene>([&]() -> Result<Scene, ImportError> {
+        return x::import(bytes, folders_of_bytes(file, options.root), options, report);
+    });
 }
 
 Result<Scene, ImportError> import_x(const std::filesystem::path& file, const XOptions& options, Report& report) {
     return without_throwing<Scene>([&]() -> Result<Scene, ImportError> {
         const std::vector<std::byte> bytes = read_file(file, {});
-        return import_x({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, options, report);
+        return x::import({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                         ReadableFolders::of(file, options.root), options, report);
     });
 }
 

@@ -2,6 +2,7 @@
 #include "failure.h"
 #include "parts.h"
 #include "source/image_bytes.h"
+#include "source/named_files.h"
 #include "source/normalise.h"
 #include "source/source_file.h"
 
@@ -31,8 +32,8 @@ std::filesystem::path path_of(const std::string& name) {
 
 class MaterialImporter {
 public:
-    MaterialImporter(const std::filesystem::path& file, bool embed_images, Scene& scene, Report& report)
-        : file_(file), embed_images_(embed_images), scene_(scene), report_(report) {}
+    MaterialImporter(NamedFiles& files, bool embed_images, Scene& scene, Report& report)
+        : files_(files), embed_images_(embed_images), scene_(scene), report_(report) {}
 
     void import(const Material& source) {
         converter::Material material;
@@ -58,7 +59,8 @@ private:
         if (!is_new) return known->second;
         Image image;
         image.uri = uri_of(path_of(source.texture));
-        if (embed_images_) embed(image, source.place);
+        if (embed_images_) files_.embed(image, source.place);
+        image.media_type = media_type_of(image.bytes);
         Texture texture;
         texture.images.push_back(static_cast<std::uint32_t>(scene_.images.size()));
         scene_.images.push_back(std::move(image));
@@ -66,19 +68,7 @@ private:
         return number;
     }
 
-    void embed(Image& image, const std::string& place) {
-        try {
-            const auto file = resolve_uri(image.uri, file_, place);
-            report_.add_source(file);
-            image.bytes = read_file(file, place);
-            image.media_type = media_type_of(image.bytes);
-            image.uri.clear();
-        } catch (const Failure& failure) {  // the character converts without it
-            report_.warn("image could not be read (" + failure.error.message + ')', place);
-        }
-    }
-
-    const std::filesystem::path& file_;
+    NamedFiles& files_;
     bool embed_images_;
     Scene& scene_;
     Report& report_;
@@ -97,9 +87,8 @@ float power_of(float roughness) {
     return std::clamp(power, 0.0f, kMostPower);
 }
 
-void import_materials(const XFile& source, const std::filesystem::path& file, bool embed_images, Scene& scene,
-                      Report& report) {
-    MaterialImporter importer(file, embed_images, scene, report);
+void import_materials(const XFile& source, NamedFiles& files, bool embed_images, Scene& scene, Report& report) {
+    MaterialImporter importer(files, embed_images, scene, report);
     for (const Material& material : source.materials) importer.import(material);
 }
 

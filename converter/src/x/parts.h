@@ -1,5 +1,6 @@
 #pragma once
 
+#include "source/named_files.h"
 #include "source/source_file.h"
 
 #include <bendy/converter/report.h>
@@ -142,8 +143,7 @@ void import_rig(const XFile& file, const FrameIndex& frames, Scene& scene, Repor
 glm::mat4 to_floats(const Matrix& matrix, const std::string& place);
 
 /// Fills Scene::materials, textures and images. \param file  beside which images are looked for
-void import_materials(const XFile& source, const std::filesystem::path& file, bool embed_images, Scene& scene,
-                      Report& report);
+void import_materials(const XFile& source, NamedFiles& files, bool embed_images, Scene& scene, Report& report);
 
 /// How much of the light a surface that is no metal throws straight back.
 inline constexpr float kDielectric = 0.04f;

@@ -231,7 +231,8 @@ XAsset export_bytes(Bytes bytes, const std::string& image_stem, Report& report, 
                     const std::filesystem::path& bendy_file) {
     Result<Scene, ImportError> scene = import_bendy(bytes, report);
     if (!scene) throw Failure{scene.error()};
-    if (!bendy_file.empty() && !options.output.empty()) move_links(*scene, bendy_file, options.output, report);
+    if (!bendy_file.empty() && !options.output.empty())
+        move_links(*scene, bendy_file, options.output, ReadableFolders::of(bendy_file), report);
     if (!options.vertices.empty()) keep_level(*scene, options.vertices);
     return x_out::write(*scene, image_stem, report);
 }

@@ -14,17 +14,6 @@
 namespace bendy::converter::x_out {
 namespace {
 
-/// TGA files have no sign of their own at their beginning: a header that can be one of theirs.
-bool may_be_tga(std::span<const std::byte> bytes) {
-    constexpr std::size_t kHeader = 18;
-    if (bytes.size() <= kHeader) return false;
-    const auto at = [&](std::size_t place) { return std::to_integer<unsigned>(bytes[place]); };
-    const unsigned kind = at(2) & ~8u;  // 8: in runs
-    const unsigned depth = at(16);
-    return at(1) <= 1 && kind >= 1 && kind <= 3 && (at(1) == 1) == (kind == 1) && at(12) + at(13) > 0 &&
-           at(14) + at(15) > 0 && (depth == 8 || depth == 15 || depth == 16 || depth == 24 || depth == 32);
-}
-
 std::string ending_of(const Image& image) {
     const std::string media_type = image.media_type.empty() ? media_type_of(image.bytes) : image.media_type;
     constexpr std::array<std::pair<const char*, const char*>, 8> kEndings{{{"image/png", ".png"},

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+#include <string>
+
 namespace bendy::converter::buffers_test {
 namespace {
 
@@ -60,12 +64,35 @@ TEST(GltfBuffers, WhatIsNoFileBesideTheSourceIsRefused) {
     EXPECT_EQ(refused("none.bin"), "file not found: 'none.bin'");
     EXPECT_EQ(refused("http://example.invalid/x.bin"),
               "only files beside the source and data URIs are read, not 'http://example.invalid/x.bin'");
-    EXPECT_EQ(refused("file:///etc/hostname"),
-              "only files beside the source and data URIs are read, not 'file:///etc/hostname'");
-    EXPECT_EQ(refused("/etc/hostname"), "absolute paths are refused: '/etc/hostname'");
+    const auto is_outside = [&](const std::string& uri) {
+        EXPECT_EQ(refused(uri),
+                  "'" + uri + "' is outside the source's folder: --root FOLDER allows a folder that it is in");
+    };
+    for (const char* uri :
+         {"file:///etc/hostname", "/etc/hostname", "../bendy_secret", "..%2fbendy_secret", "%2e%2e/x"})
+        is_outside(uri);
     EXPECT_EQ(refused(""), "the URI is empty");
     std::filesystem::create_directories(test_folder() / "folder.bin");
     EXPECT_EQ(refused("folder.bin"), "not a regular file: 'folder.bin'");
+}
+
+TEST(GltfBuffers, MayBeInTheRoot) {
+    const auto file = write_file("sub/asset.gltf", bytes_of(R"({"asset":{"version":"2.0"},)" + kMembers +
+                                                            R"("buffers":[{"byteLength":12,"uri":"../point.bin"}]})"));
+    write_file("point.bin", kPoint);
+    EXPECT_EQ(import_file(file).place(), "buffers[0].uri");
+    GltfOptions options;
+    options.root = test_folder();
+    expect_point(import_file(file, options));
+    // Bytes have the folder that is in front of their name; without one, only the root.
+    std::ifstream stream(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    Report report;
+    EXPECT_TRUE(import_gltf(bytes_of(text), file, options, report));
+    const auto piped = import_gltf(bytes_of(text), "asset.gltf", {}, report);
+    ASSERT_FALSE(piped);
+    EXPECT_EQ(piped.error().message,
+              "the source has no folder in which to look for '../point.bin': --root FOLDER gives it one");
 }
 
 TEST(GltfBuffers, MustHoldTheirByteLength) {

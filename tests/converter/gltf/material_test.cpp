@@ -131,6 +131,46 @@ TEST(GltfMaterial, ImagesFromFilesAndDataUris) {
     EXPECT_TRUE(referred.report.warnings().empty());
 }
 
+TEST(GltfMaterial, ImagesOutsideTheFolderStayLinks) {
+    Gltf gltf = make_triangle();
+    gltf.json["images"] = {{{"uri", "../bendy_secret.png"}}, {{"uri", "in.png"}}};
+    write_file("in.png", kPng);
+    const Import import = gltf.import();
+    ASSERT_EQ(import->images.size(), 2u);
+    EXPECT_EQ(import->images[0].uri, "../bendy_secret.png");
+    EXPECT_TRUE(import->images[0].bytes.empty());
+    EXPECT_EQ(import.warned("image could not be read ('../bendy_secret.png' is outside the source's folder: --root "),
+              1u);
+    ASSERT_EQ(import.report.embedded().size(), 1u);  // what is in the result is named
+    EXPECT_EQ(import.report.embedded()[0].file.filename(), "in.png");
+    EXPECT_EQ(import.report.embedded()[0].size, kPng.size());
+    EXPECT_EQ(import.report.embedded()[0].media_type, "image/png");
+    EXPECT_EQ(import.report.sources().size(), 1u);
+}
+
+TEST(GltfMaterial, EmbeddedFilesThatAreNoImagesAreNamed) {
+    Gltf gltf = make_triangle();
+    gltf.json["images"] = {{{"uri", "notes.txt"}}};
+    write_file("notes.txt", bytes_of("a key that nobody should see"));
+    const Import import = gltf.import();
+    EXPECT_FALSE(import->images.at(0).bytes.empty());
+    EXPECT_EQ(import.warned("embedded file is no image of a known kind: 'notes.txt'"), 1u);
+}
+
+TEST(GltfMaterial, OneFileForAThousandImagesIsBounded) {
+    Gltf gltf = make_triangle();
+    Bytes big = kPng;
+    big.resize(std::size_t{1} << 20);
+    write_file("big.png", big);
+    for (int i = 0; i < 1000; ++i) gltf.json["images"].push_back({{"uri", "big.png"}});
+    const Import import = gltf.import();
+    std::size_t bytes = 0;
+    for (const Image& image : import->images) bytes += image.bytes.size();
+    EXPECT_GE(bytes, big.size());
+    EXPECT_LE(bytes, std::size_t{100} * big.size() + (std::size_t{64} << 20));
+    EXPECT_GT(import.warned("image could not be read (the decoded data would be implausibly large)"), 800u);
+}
+
 TEST(GltfMaterial, WrongReferencesNameTheirPlace) {
     Gltf gltf = make_triangle();
     gltf.json["materials"] = {{{"normalTexture", {{"index", 0}}}}};

@@ -17,7 +17,7 @@ namespace bendy::converter {
 struct ConvertOptions {
     /// Where the result will be written: links to images are relative to its folder. Empty: beside the source.
     std::filesystem::path output;
-    GltfOptions gltf;  ///< for glTF sources, embed_images for X-files too; a scene chosen in others is an error
+    GltfOptions gltf;  ///< for glTF sources, embed_images and root for others too; a scene chosen in others is an error
     /// For X-files, see XOptions; 0: as the file says. An error for other sources.
     double ticks_per_second = 0.0;
     /// Clips that move different properties become one, see docs/convert.md.
@@ -54,7 +54,7 @@ Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path&
                                                     Report& report);
 
 /// The same of a source's bytes, as they come from a pipe. \param name  of the source, with a folder in front beside
-/// which the files that it refers to are looked for; without one, they are relative to the working directory
+/// which the files that it refers to are looked for; without one, the bytes have no folder, see GltfOptions::root
 Result<std::vector<std::byte>, ImportError> convert(std::vector<std::byte> source, const std::filesystem::path& name,
                                                     const ConvertOptions& options, Report& report);
 

@@ -23,6 +23,9 @@ struct GltfOptions {
     std::optional<std::string> scene;
     /// false: images that the source keeps in files of their own stay there and are referred to by URI.
     bool embed_images = true;
+    /// A folder whose files may be read too; else only those in the source's own folder and below it are, see
+    /// ReadableFolders. A source without a folder has only this one, and its names start there.
+    std::filesystem::path root;
     /// Make a joint, with meshes of its own, of every instance of EXT_mesh_gpu_instancing. Else their numbers are kept
     /// as data, and a node draws its mesh once.
     bool instances = false;
@@ -33,12 +36,14 @@ struct GltfOptions {
 /// every index in range.
 Result<Scene, ImportError> import_gltf(const std::filesystem::path& file, const GltfOptions& options, Report& report);
 
-/// The same of a file's bytes. \param file  beside which other files are looked for
+/// The same of a file's bytes. \param file  beside which other files are looked for; a name without a folder: the bytes
+/// have none
 Result<Scene, ImportError> import_gltf(std::vector<std::byte> bytes, const std::filesystem::path& file,
                                        const GltfOptions& options, Report& report);
 
 struct XOptions {
-    bool embed_images = true;  ///< false: images stay in their files and are referred to by URI
+    bool embed_images = true;         ///< false: images stay in their files and are referred to by URI
+    std::filesystem::path root = {};  ///< as GltfOptions::root
     /// Ticks per second of the key times, above 0: goes before what the file says. 0: the file's AnimTicksPerSecond, or
     /// 4,800 where it has none, which is named in the report.
     double ticks_per_second = 0.0;
@@ -51,7 +56,8 @@ struct XOptions {
 /// every index in range. The lines of a compressed file are those of the text in it.
 Result<Scene, ImportError> import_x(const std::filesystem::path& file, const XOptions& options, Report& report);
 
-/// The same of a file's bytes. \param file  beside which images are looked for
+/// The same of a file's bytes. \param file  beside which images are looked for; a name without a folder: the bytes have
+/// none
 Result<Scene, ImportError> import_x(std::string_view bytes, const std::filesystem::path& file, const XOptions& options,
                                     Report& report);
 

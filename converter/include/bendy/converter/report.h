@@ -53,6 +53,13 @@ struct SourceFile {
     FileStamp stamp;  ///< from before it was read
 };
 
+/// A file that a source names and whose bytes are in the result.
+struct EmbeddedFile {
+    std::filesystem::path file;
+    std::uint64_t size = 0;  ///< bytes
+    std::string media_type;  ///< as its first bytes show; may be empty
+};
+
 /// Why an import failed: what is wrong and where in the source, e.g. place
 /// `meshes[2].primitives[0].attributes.JOINTS_0`.
 struct ImportError {
@@ -69,7 +76,7 @@ struct Warning {
 };
 
 /// Gathers warnings during a conversion; equal messages are counted together, in the order in which they first came.
-/// And what was proposed, and which files were read.
+/// And what was proposed, which files were read, and which of them are in the result.
 class Report {
 public:
     void warn(std::string message, std::string place = {}, std::uint64_t count = 1);
@@ -87,6 +94,10 @@ public:
     void add_source(const std::filesystem::path& file);
     [[nodiscard]] const std::vector<SourceFile>& sources() const { return sources_; }
 
+    /// Notes that a file's bytes go into the result; once for each.
+    void add_embedded(EmbeddedFile file);
+    [[nodiscard]] const std::vector<EmbeddedFile>& embedded() const { return embedded_; }
+
     /// What was made smaller, at which error; nothing after an exact conversion.
     std::optional<CompactReport> compact;
 
@@ -96,6 +107,8 @@ private:
     std::vector<std::string> suggestions_;
     std::vector<SourceFile> sources_;
     std::set<std::filesystem::path> known_sources_;
+    std::vector<EmbeddedFile> embedded_;
+    std::set<std::filesystem::path> known_embedded_;
     std::unordered_map<std::string, std::size_t> place_of_;  // message: index into warnings_
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bendy/format/readable_folders.h>
 #include <bendy/runtime/model.h>
 #include <bendy/runtime/pose.h>
 #include <bendy/viewer/picture.h>
@@ -8,10 +9,8 @@
 #include <glm/vec4.hpp>
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,15 +52,11 @@ struct RenderOptions {
     float lod = 1.0f;            ///< fraction of the triangles
     CameraOptions camera;
     DrawOptions draw;
-    std::filesystem::path folder;  ///< that contains the images that the file links to
+    ReadableFolders folders;  ///< of the images that the file links to
     /// Changes every pose after sampling, to apply constraints or IK. May be empty.
     std::function<void(Pose&)> adjust;
     std::vector<DrawnTarget> targets;
 };
-
-/// Returns the file that an image's URI refers to, relative to `folder` (RenderOptions::folder); nothing if the URI
-/// leads out of the folder.
-std::optional<std::filesystem::path> linked_file(const std::filesystem::path& folder, std::string_view uri);
 
 inline constexpr std::uint32_t kMostPixels = 8192;  ///< along a side
 
@@ -77,7 +72,7 @@ public:
     PictureMaker& operator=(PictureMaker&&) = delete;
     ~PictureMaker();
 
-    /// Draws with other options from now on; `folder` stays. Faster than another PictureMaker, which compiles all
+    /// Draws with other options from now on; `folders` stay. Faster than another PictureMaker, which compiles all
     /// shaders again.
     void change(const RenderOptions& options);
     /// Draws the character at a time of the clip, in seconds.

@@ -17,6 +17,7 @@ struct ViewOptions {
     /// it fails.
     std::function<std::vector<std::byte>(const std::filesystem::path&)> open;
     std::filesystem::path file;    ///< empty: the tentacle demo
+    std::filesystem::path root;    ///< see ReadableFolders; may be empty
     Bytes tentacle;                ///< the demo's character, a bendy file
     std::filesystem::path script;  ///< for tests: commands, see window.h; empty: interactive
     bool trace = false;            ///< for tests: prints the state as a JSON object after each key
