@@ -19,11 +19,20 @@ namespace bendy::converter {
 namespace gltf {
 namespace {
 
+/// An element of the root's arrays may be three bytes of JSON, and is a structure of several hundred in memory.
+void charge_elements(const Json& root, Budget& budget) {
+    constexpr std::uint64_t kElement = 1024;  // bytes, about
+    for (const auto& [name, member] : root.items()) {
+        if (member.is_array()) budget.take(member.size(), kElement, name);
+    }
+}
+
 Scene import(std::vector<std::byte> bytes, ReadableFolders folders, const GltfOptions& options, Report& report) {
     const Container container = open_container(std::move(bytes));
     const Json root = parse_json(container.json, options.instances, report);
     Budget budget;
     budget.add_source(container.bytes.size());
+    charge_elements(root, budget);
     NamedFiles files(std::move(folders), budget, report);
     Buffers buffers(root, container, files);
     const tinygltf::Model model = read_structure(root);

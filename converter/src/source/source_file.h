@@ -18,10 +18,12 @@ namespace bendy::converter {
 
 /// How many bytes the decoded scene may take. A small hostile file can ask for any amount: one accessor used by every
 /// primitive, one mesh by every node, compressed or implied zeros. So whatever grows the result is charged here first.
+/// The bytes are in memory two or three times before the result is written: the limits keep all of it within 64 MiB and
+/// a hundred times the source.
 class Budget {
 public:
-    static constexpr std::uint64_t kFloor = std::uint64_t{1} << 30;  ///< bytes that any file may decode to
-    static constexpr std::uint64_t kPerSourceByte = 64;              ///< beyond the floor, for each byte of the source
+    static constexpr std::uint64_t kFloor = std::uint64_t{24} << 20;  ///< bytes that any file may decode to
+    static constexpr std::uint64_t kPerSourceByte = 32;               ///< beyond the floor, for each byte of the source
 
     void add_source(std::uint64_t bytes) {
         const std::uint64_t room = UINT64_MAX - left_;
