@@ -9,6 +9,7 @@
 #include <draco/compression/config/decoder_options.h>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
+#include <draco/core/varint_decoding.h>
 
 #include <utility>
 
@@ -39,9 +40,10 @@ public:
 
     bool DecodePredictionData(draco::DecoderBuffer* buffer) override {
         draco::DecoderBuffer ahead = *buffer;
-        std::int32_t orientations = 0;
-        return ahead.Decode(&orientations) && check(bounds_, orientations <= bounds_.corners) &&
-               scheme_->DecodePredictionData(buffer);
+        std::uint32_t orientations = 0;
+        const bool is_portable = GetPredictionMethod() == draco::MESH_PREDICTION_TEX_COORDS_PORTABLE;
+        const bool is_read = is_portable ? ahead.Decode(&orientations) : draco::DecodeVarint(&orientations, &ahead);
+        return is_read && check(bounds_, orientations <= bounds_.corners) && scheme_->DecodePredictionData(buffer);
     }
     bool ComputeOriginalValues(const std::int32_t* corrections, std::int32_t* values, int size, int components,
                                const draco::PointIndex* points) override {
@@ -79,7 +81,9 @@ protected:
     std::unique_ptr<Scheme> CreateIntPredictionScheme(draco::PredictionSchemeMethod method,
                                                       draco::PredictionSchemeTransformType transform) override {
         std::unique_ptr<Scheme> scheme = Decoder::CreateIntPredictionScheme(method, transform);
-        if (scheme == nullptr || scheme->GetPredictionMethod() != draco::MESH_PREDICTION_TEX_COORDS_PORTABLE)
+        if (scheme == nullptr) return scheme;
+        const draco::PredictionSchemeMethod made = scheme->GetPredictionMethod();
+        if (made != draco::MESH_PREDICTION_TEX_COORDS_PORTABLE && made != draco::MESH_PREDICTION_TEX_COORDS_DEPRECATED)
             return scheme;
         return std::make_unique<BoundedScheme>(std::move(scheme), bounds_);
     }
