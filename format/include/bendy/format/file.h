@@ -6,17 +6,23 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 
 namespace BENDY_PUBLIC bendy {
 
-/// A file mapped read-only into memory; an empty file gives an empty view. The bytes start on a page boundary.
+/// A file mapped read-only into memory, or read into it; an empty file gives an empty view. The bytes start on a page
+/// boundary.
 ///
-/// While a file is mapped, POSIX systems allow it to be replaced or removed: the bytes stay unchanged. (Writing into
-/// the file in place does change them.) Windows does not allow it to be written, replaced, renamed or removed; other
-/// programs may read it.
+/// While a file is mapped, POSIX systems allow it to be replaced or removed: the bytes stay unchanged. Writing into the
+/// file in place does change them, and after it was made shorter, reading past its new end raises SIGBUS, which ends
+/// the program. Windows does not allow a mapped file to be written, replaced, renamed or removed; other programs may
+/// read it.
 class MappedFile {
 public:
     static Result<MappedFile> open(const std::filesystem::path& path);
+    /// Reads the file into memory of its own: whatever happens to the file afterwards, the bytes stay. If the file is
+    /// made shorter meanwhile, the error is kCannotRead with EBUSY.
+    static Result<MappedFile> read(const std::filesystem::path& path);
 
     MappedFile() = default;
     MappedFile(MappedFile&& other) noexcept;
@@ -30,16 +36,43 @@ public:
 private:
     const std::byte* data_ = nullptr;
     std::size_t size_ = 0;
-    [[maybe_unused]] void* file_ = nullptr;  ///< Windows: the handle that keeps other programs from changing the file
+    void* file_ = nullptr;  ///< if mapped: its entry for mapped_file_at(); on Windows, the handle that keeps others out
 };
+
+/// For a handler of SIGBUS: the name of the file that is mapped at the address, in the bytes that MappedFile::open was
+/// given; null if there is none, and always on Windows. May be called from a signal handler; the text lives as long as
+/// the mapping.
+const char* mapped_file_at(const void* address) noexcept;
 
 /// Writes a whole file or nothing: into a new file beside `path`, flushed to disk, then renamed over it. On failure the
 /// old file, if there was one, is untouched, and the new one is removed. If `path` is a symbolic link, the file that it
 /// points to is replaced, not the link; a pipe or a device, such as /dev/stdout, is written to directly. On Windows a
-/// file that is open elsewhere, for example mapped, cannot be replaced: kCannotWrite with EBUSY.
+/// file that is open elsewhere, for example mapped, cannot be replaced: kCannotWrite with EBUSY. On POSIX systems the
+/// new file has the mode of the old one, and its owner and group where the user may set them.
 ///
-/// Paths of both functions may contain any characters, and on Windows be longer than 260. The value of an error is an
+/// Paths of all functions may contain any characters, and on Windows be longer than 260. The value of an error is an
 /// errno number on all systems.
 Result<void> write_file(const std::filesystem::path& path, Bytes bytes);
+
+struct FileContents {
+    std::filesystem::path path;
+    Bytes bytes;
+};
+
+struct WriteFailure {
+    std::size_t file = 0;  ///< index of the file that could not be written
+    Error error;
+};
+
+/// Writes several files, each as write_file does, which replace the old ones together or not at all: all are flushed to
+/// disk before the first is renamed, and if a rename fails, the old files are put back. Only if the program is killed
+/// between two renames, or the machine stops, are some files new and others old; the old ones are then beside them as
+/// `.bendy-*`.
+Result<void, WriteFailure> write_files(std::span<const FileContents> files);
+
+/// For a handler of signals that end the program: removes the files that write_file and write_files, on any thread,
+/// have made beside those that they write. Waits until files that are being replaced together are all replaced. May be
+/// called from a signal handler on any thread; afterwards nothing can be written.
+void remove_temporary_files() noexcept;
 
 }  // namespace bendy

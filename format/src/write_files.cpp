@@ -1,0 +1,147 @@
+#include "write_files.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bendy {
+
+/// Slots are used again, but never freed, so that a signal handler can walk along them at any time.
+struct TemporaryName::Slot {
+    std::atomic<const std::filesystem::path::value_type*> name{nullptr};  ///< null: free
+    Slot* next = nullptr;
+};
+
+namespace {
+
+std::atomic<TemporaryName::Slot*> slots{nullptr};
+std::atomic<int> replacing{0};       ///< threads that are replacing files together
+std::atomic<bool> is_ending{false};  ///< nothing must be replaced any more
+static_assert(std::atomic<const void*>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
+              std::atomic<bool>::is_always_lock_free);
+
+/// In place of a name that remove_temporary_files() has taken.
+constexpr std::filesystem::path::value_type kTaken = 0;
+
+TemporaryName::Slot* slot_for(const std::filesystem::path::value_type* name) {
+    for (TemporaryName::Slot* slot = slots; slot != nullptr; slot = slot->next) {
+        const std::filesystem::path::value_type* free = nullptr;
+        if (slot->name.compare_exchange_strong(free, name)) return slot;
+    }
+    auto added = std::make_unique<TemporaryName::Slot>();
+    added->name = name;
+    added->next = slots;
+    while (!slots.compare_exchange_weak(added->next, added.get())) {
+    }
+    return added.release();
+}
+
+/// While it lives, remove_temporary_files() waits, and does not run on this thread, where it would wait for ever.
+class Replacing {
+public:
+    Replacing() {
+        ++replacing;
+        may_begin_ = !is_ending;
+    }
+    Replacing(const Replacing&) = delete;
+    Replacing& operator=(const Replacing&) = delete;
+    Replacing(Replacing&&) = delete;
+    Replacing& operator=(Replacing&&) = delete;
+    ~Replacing() { --replacing; }
+
+    [[nodiscard]] bool may_begin() const { return may_begin_; }
+
+private:
+    SignalsBlocked blocked_;
+    bool may_begin_ = false;
+};
+
+Error cannot_write(int number) {
+    return {ErrorCode::kCannotWrite, 0, static_cast<std::uint64_t>(number)};
+}
+
+void remove(std::unique_ptr<TemporaryName>& file) {
+    if (file) remove_at_once(file->path().c_str());
+    file.reset();
+}
+
+void put_back(StagedFile& file) {
+    if (file.kept) {
+        static_cast<void>(replace(file.target, file.kept->path()));
+        remove(file.kept);  // it is there still if it is the target's own second name
+    } else if (file.is_replaced) {
+        remove_at_once(file.target.c_str());
+    }
+}
+
+Result<void, WriteFailure> replace_all(std::vector<StagedFile>& files) {
+    const Replacing now;
+    if (!now.may_begin()) return WriteFailure{0, cannot_write(EINTR)};
+    const auto together =
+        std::count_if(files.begin(), files.end(), [](const StagedFile& file) { return file.beside != nullptr; });
+    for (std::size_t k = 0; k < files.size(); ++k) {
+        StagedFile& file = files[k];
+        if (!file.beside) continue;
+        file.is_replaced = (together == 1 || keep_old(file)) && replace(file.target, file.beside->path());
+        if (file.is_replaced) continue;
+        const Error error = last_error();
+        for (std::size_t done = k + 1; done > 0; --done) put_back(files[done - 1]);
+        return WriteFailure{k, error};
+    }
+    for (StagedFile& file : files) remove(file.kept);
+    return {};
+}
+
+}  // namespace
+
+TemporaryName::TemporaryName(std::filesystem::path path)
+    : path_(std::make_unique<const std::filesystem::path>(std::move(path))), slot_(slot_for(path_->c_str())) {}
+
+TemporaryName::~TemporaryName() {
+    const std::filesystem::path::value_type* name = path_->c_str();
+    // A signal handler that has taken the name may still be reading it: it then stays until the program has ended.
+    if (!slot_->name.compare_exchange_strong(name, nullptr)) static_cast<void>(path_.release());
+}
+
+std::unique_ptr<TemporaryName> name_beside(const std::filesystem::path& target) {
+    static std::atomic<unsigned> counter{0};
+    const std::string name = ".bendy-" + std::to_string(process_number()) + '-' + std::to_string(counter++);
+    return std::make_unique<TemporaryName>(target.parent_path() / name);
+}
+
+Result<void, WriteFailure> write_files(std::span<const FileContents> files) {
+    std::vector<StagedFile> staged(files.size());
+    Result<void, WriteFailure> written;
+    for (std::size_t k = 0; written && k < files.size(); ++k) {
+        if (const auto one = stage(files[k], staged[k]); !one) written = WriteFailure{k, one.error()};
+    }
+    if (written) written = replace_all(staged);
+    if (!written) {
+        for (StagedFile& file : staged) remove(file.beside);
+    }
+    return written;
+}
+
+Result<void> write_file(const std::filesystem::path& path, Bytes bytes) {
+    const FileContents file{path, bytes};
+    const auto written = write_files({&file, 1});
+    if (!written) return written.error().error;
+    return {};
+}
+
+void remove_temporary_files() noexcept {
+    is_ending = true;
+    while (replacing != 0) wait_briefly();
+    for (TemporaryName::Slot* slot = slots; slot != nullptr; slot = slot->next) {
+        const std::filesystem::path::value_type* name = slot->name;
+        if (name != nullptr && name != &kTaken && slot->name.compare_exchange_strong(name, &kTaken))
+            remove_at_once(name);
+    }
+}
+
+}  // namespace bendy
