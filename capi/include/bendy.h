@@ -105,14 +105,16 @@ typedef struct bendy_open_options {
     uint32_t sums_later; /* 0: all bytes are checked against their integrity sums on opening. 1: only by
                             bendy_check_sums; opening is faster, and corruption on disk goes unnoticed until then.
                             Structure is checked, and access is memory safe, in either case */
+    uint32_t copied; /* for bendy_open; 0: the file is mapped. 1: it is read into memory, so that the program survives
+                        if another one makes the file shorter while it is open (docs/embedding.md) */
 } bendy_open_options;
 
 #define BENDY_OPEN_OPTIONS_INIT \
-    { sizeof(bendy_open_options), 0, 0 }
+    { sizeof(bendy_open_options), 0, 0, 0 }
 
-/* Maps a file into memory and checks it. Returns NULL, and the first fault, if the file is not valid. The file must
- * not be modified in place while it is open (replacing it is allowed, except on Windows, where it fails). `path` is
- * UTF-8 on Windows, and in the system's encoding elsewhere. `options` may be NULL. */
+/* Maps a file into memory and checks it. Returns NULL, and the first fault, if the file is not valid. Unless `copied`
+ * is set, the file must not be modified in place while it is open (replacing it is allowed, except on Windows, where it
+ * fails). `path` is UTF-8 on Windows, and in the system's encoding elsewhere. `options` may be NULL. */
 BENDY_API bendy_model* bendy_open(const char* path, const bendy_open_options* options, bendy_error* error);
 /* As bendy_open, for `size` bytes in memory, which are copied. */
 BENDY_API bendy_model* bendy_open_copy(const void* bytes, size_t size, const bendy_open_options* options,

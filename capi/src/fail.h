@@ -65,6 +65,8 @@ template <class S>
 inline constexpr std::size_t kFirstSize = sizeof(S);
 // The structs that have grown. Padding at the end of the first form is not counted.
 template <>
+inline constexpr std::size_t kFirstSize<bendy_open_options> = offsetof(bendy_open_options, copied);
+template <>
 inline constexpr std::size_t kFirstSize<bendy_joint> = offsetof(bendy_joint, extras);
 template <>
 inline constexpr std::size_t kFirstSize<bendy_clip> = offsetof(bendy_clip, is_packed);

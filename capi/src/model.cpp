@@ -80,14 +80,13 @@ bendy_status take_options(const bendy_open_options* options, OpenOptions& taken,
     if (const bendy_status status = take(options, "options", values, error)) return status;
     taken.object = values.object;
     taken.sums = values.sums_later != 0 ? Sums::later : Sums::checked;
+    taken.storage = values.copied != 0 ? Storage::copied : Storage::mapped;
     return BENDY_OK;
 }
 
-bendy_status open_source(Source source, const bendy_open_options* options, bendy_model*& out, bendy_error* error) {
-    OpenOptions taken;
-    if (const bendy_status status = take_options(options, taken, error)) return status;
+bendy_status open_source(Source source, const OpenOptions& options, bendy_model*& out, bendy_error* error) {
     const Bytes bytes = source.bytes;
-    Result<Model> model = Model::from_memory(bytes, taken);
+    Result<Model> model = Model::from_memory(bytes, options);
     if (!model) return fail(error, model.error(), bytes);
     out = std::make_unique<bendy_model>(
               bendy_model{std::make_shared<const Character>(std::move(source), *std::move(model))})
@@ -97,6 +96,8 @@ bendy_status open_source(Source source, const bendy_open_options* options, bendy
 
 bendy_status open_memory(const void* data, std::size_t size, bool copies, const bendy_open_options* options,
                          bendy_model*& out, bendy_error* error) {
+    OpenOptions taken;
+    if (const bendy_status status = take_options(options, taken, error)) return status;
     if (size != 0) {
         if (const bendy_status status = check_pointer(data, "bytes", error)) return status;
     }
@@ -107,7 +108,7 @@ bendy_status open_memory(const void* data, std::size_t size, bool copies, const 
         std::memcpy(source.copy.span().data(), data, size);
         source.bytes = source.copy.bytes();
     }
-    return open_source(std::move(source), options, out, error);
+    return open_source(std::move(source), taken, out, error);
 }
 
 constexpr bool kNamesAreUnicode = std::is_same_v<std::filesystem::path::value_type, wchar_t>;  // on Windows
@@ -134,12 +135,15 @@ bendy_model* bendy_open(const char* path, const bendy_open_options* options, ben
     guarded(error, [&] {
         if (const bendy_status status = check_pointer(path, "path", error)) return status;
         if (kNamesAreUnicode && !bendy::is_utf8(path)) return fail(error, BENDY_BAD_ARGUMENT, "path is not UTF-8");
-        auto file = bendy::MappedFile::open(path_of(path));
+        bendy::OpenOptions taken;
+        if (const bendy_status status = take_options(options, taken, error)) return status;
+        const bool copies = taken.storage == bendy::Storage::copied;
+        auto file = copies ? bendy::MappedFile::read(path_of(path)) : bendy::MappedFile::open(path_of(path));
         if (!file) return fail(error, file.error(), {});
         Source source;
         source.file = *std::move(file);
         source.bytes = source.file.bytes();
-        return open_source(std::move(source), options, model, error);
+        return open_source(std::move(source), taken, model, error);
     });
     return model;
 }

@@ -318,17 +318,18 @@ class Chunk:
         return ("<table><tr><th>chunk</th><th>name</th><th>offset</th><th>bytes</th></tr>" + "".join(rows) + "</table>")
 
 
-def open(source, *, object=0, check_sums=True, root=None):
+def open(source, *, object=0, check_sums=True, copied=False, root=None):
     """Opens a character. A path is mapped; what is no bendy file (glTF, X-files, Quake II models) is converted in memory, and
     Model.conversion has the warnings.
 
-    object: which object of the file. check_sums: False defers the check of all bytes to Model.check_sums. root: as for convert.
+    object: which object of the file. check_sums: False defers the check of all bytes to Model.check_sums. copied: True reads a path
+    into memory, for files that another program may make shorter, which ends a program that has them mapped. root: as for convert.
     Raises FileNotFoundError and other OSErrors; MalformedError, InvalidError, UnsupportedError with code, path and offset;
     ConversionError.
     """
     if isinstance(source, Model):
         return source
-    found = _source(source)
+    found = _bendy.Source.read(source) if copied and isinstance(source, (str, _os.PathLike)) else _source(source)
     conversion = None
     if found.format in ("gltf", "x", "md2"):
         conversion = convert(source, root=root)

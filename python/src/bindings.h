@@ -33,21 +33,21 @@ namespace py = pybind11;
 /// The bytes of a file: mapped, or in memory. They never change and start on a 16-byte boundary.
 class Source {
 public:
-    explicit Source(MappedFile mapped, std::filesystem::path file)
-        : mapped_(std::move(mapped)), file_(std::move(file)) {}
+    Source(MappedFile opened, std::filesystem::path file, Storage storage)
+        : opened_(std::move(opened)), file_(std::move(file)), is_mapped_(storage == Storage::mapped) {}
     explicit Source(std::vector<std::byte> owned, std::filesystem::path file = {})
-        : owned_(std::move(owned)), file_(std::move(file)), is_mapped_(false) {}
+        : owned_(std::move(owned)), file_(std::move(file)) {}
 
-    [[nodiscard]] Bytes bytes() const { return is_mapped_ ? mapped_.bytes() : Bytes(owned_); }
+    [[nodiscard]] Bytes bytes() const { return owned_.empty() ? opened_.bytes() : Bytes(owned_); }
     /// Empty, or a name for messages, if the bytes are not those of a file.
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
     [[nodiscard]] bool is_mapped() const { return is_mapped_; }
 
 private:
-    MappedFile mapped_;
+    MappedFile opened_;
     std::vector<std::byte> owned_;
     std::filesystem::path file_;
-    bool is_mapped_ = true;
+    bool is_mapped_ = false;
 };
 
 /// The folders in which the names in a source are looked for. Bytes have the folder in front of their name, if there is

@@ -21,13 +21,13 @@ py::object name_of_file(const std::filesystem::path& file) {
     throw py::error_already_set();
 }
 
-std::shared_ptr<const Source> map_file(const std::filesystem::path& file) {
-    Result<MappedFile> mapped = [&] {
+std::shared_ptr<const Source> open_file(const std::filesystem::path& file, Storage storage) {
+    Result<MappedFile> opened = [&] {
         const py::gil_scoped_release released;
-        return MappedFile::open(file);
+        return storage == Storage::copied ? MappedFile::read(file) : MappedFile::open(file);
     }();
-    if (!mapped) raise_os_error(mapped.error(), file);
-    return std::make_shared<const Source>(*std::move(mapped), file);
+    if (!opened) raise_os_error(opened.error(), file);
+    return std::make_shared<const Source>(*std::move(opened), file, storage);
 }
 
 std::shared_ptr<const Source> copy_bytes(const py::buffer& buffer, const std::filesystem::path& name) {
@@ -61,8 +61,17 @@ const char* format_of(const Source& source) {
 void bind_source(py::module_& module) {
     py::class_<Source, std::shared_ptr<Source>>(module, "Source", "The bytes of a file, mapped or in memory.")
         .def_static(
-            "map", [](const std::filesystem::path& file) { return std::const_pointer_cast<Source>(map_file(file)); },
+            "map",
+            [](const std::filesystem::path& file) {
+                return std::const_pointer_cast<Source>(open_file(file, Storage::mapped));
+            },
             py::arg("file"), "Maps a file. Raises FileNotFoundError or another OSError.")
+        .def_static(
+            "read",
+            [](const std::filesystem::path& file) {
+                return std::const_pointer_cast<Source>(open_file(file, Storage::copied));
+            },
+            py::arg("file"), "Reads a file into memory. Raises as map.")
         .def_static(
             "copy",
             [](const py::buffer& data, const std::filesystem::path& name) {

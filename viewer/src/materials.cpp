@@ -143,7 +143,7 @@ bool TextureLoader::upload(std::uint32_t number, const ImageView& image, bool sr
         if (!path && path.error() == LinkProblem::outside)
             problem += ", and is not read from outside its folder: --root FOLDER allows a folder that it is in";
         if (!path) return false;
-        auto opened = MappedFile::open(*path);
+        auto opened = MappedFile::read(*path);
         problem = "its image " + path->string() + " cannot be read";
         if (!opened) return false;
         linked = *std::move(opened);

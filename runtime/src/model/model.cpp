@@ -208,7 +208,7 @@ Result<void, CallError> ModelData::check(const Chain* chain) const {
 }
 
 Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& options) {
-    Result<MappedFile> file = MappedFile::open(path);
+    Result<MappedFile> file = options.storage == Storage::copied ? MappedFile::read(path) : MappedFile::open(path);
     if (!file) return file.error();
     const Bytes bytes = file->bytes();
     return ModelData::read(std::move(*file), bytes, options);

@@ -68,12 +68,21 @@ enum class Sums : std::uint8_t {
     later,
 };
 
+/// Where Model::open has a file's bytes.
+enum class Storage : std::uint8_t {
+    mapped,  ///< in the file: nothing is copied, and only what is used is read
+    /// In memory of its own. For files that another program may make shorter meanwhile: on POSIX systems, reading the
+    /// missing part of a mapped file ends the program by SIGBUS (docs/embedding.md).
+    copied,
+};
+
 struct OpenOptions {
     std::uint32_t object = 0;  ///< index of the object in the file
     Sums sums = Sums::checked;
+    Storage storage = Storage::mapped;  ///< not for from_memory
 };
 
-/// A character: the mapped file and a linear array of its joints, parents before children. Immutable, so any number of
+/// A character: the file and a linear array of its joints, parents before children. Immutable, so any number of
 /// threads may use it.
 ///
 /// A Model is a handle: copies share the character, and so does everything made from one (Pose, Lod, Bounds, ...). A
