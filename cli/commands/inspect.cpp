@@ -164,7 +164,7 @@ void print_text(const InspectArguments& arguments, const ChunkTree& tree, std::u
         if (arguments.summary) return;
         std::cout << '\n';
     } else if (root == 0) {
-        std::cout << printable(name) << ", " << grouped(tree.bytes().size()) << " bytes, "
+        std::cout << escaped(name) << ", " << grouped(tree.bytes().size()) << " bytes, "
                   << grouped(tree.chunks().size()) << " chunks\n";
     }
     print_tree(tree, root, arguments.all);

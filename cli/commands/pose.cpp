@@ -195,14 +195,20 @@ std::vector<glm::vec3> normals_or_zeros(const PosedMesh& mesh) {
     return mesh.normals.empty() ? std::vector<glm::vec3>(mesh.positions.size(), glm::vec3(0.0f)) : mesh.normals;
 }
 
+/// Text for the end of a line: a backslash there would join the next one to it.
+std::string obj_text(std::string_view text) {
+    std::string line = escaped(text);
+    if (line.ends_with('\\')) line += ' ';
+    return line;
+}
+
 /// Wavefront OBJ: an `o` group per mesh; numbers in the shortest form that reads back to the same float.
 std::string write_obj(const PosedObject& object) {
-    std::string out =
-        "# " + printable(object.file) + (object.clip.empty() ? ", rest pose" : ", " + printable(object.clip)) + '\n';
+    std::string out = "# " + obj_text(object.file + (object.clip.empty() ? ", rest pose" : ", " + object.clip)) + '\n';
     const bool normals = have_normals(object);
     std::uint64_t base = 0;
     for (const PosedMesh& mesh : object.meshes) {
-        out += "o " + printable(mesh.name) + '\n';
+        out += "o " + obj_text(mesh.name) + '\n';
         put_vectors(out, "v", mesh.positions);
         if (normals) put_vectors(out, "vn", normals_or_zeros(mesh));
         put_elements(out, 'f', mesh.triangles, 3, base, !mesh.normals.empty());

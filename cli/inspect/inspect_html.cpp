@@ -362,7 +362,7 @@ Json pictures_json(const InspectedFile& file) {
 }
 
 Json page_data(const InspectedFile& file) {
-    Json data{{"file", printable(file.name)},
+    Json data{{"file", escaped(file.name)},
               {"bytes", file.bytes.size()},
               {"tool", "bendy " BENDY_VERSION},
               {"faults", faults_json(file)}};

@@ -361,7 +361,7 @@ std::string summary_as_text(const Summary& summary, const std::string& file, std
     for (const Summary::TextureLine& texture : summary.textures) {
         for (const Summary::ImageLine& image : texture.images) images += image.bytes;
     }
-    std::string head = printable(file) + ": " + grouped(summary.bytes) + " bytes";
+    std::string head = escaped(file) + ": " + grouped(summary.bytes) + " bytes";
     if (images != 0) head += ", " + grouped(images) + " of them images";
     if (summary.objects == 0) head += ", no object";
     if (summary.objects > 1) head += "; " + grouped(summary.objects) + " objects, this is the first";

@@ -12,10 +12,14 @@
 // JSON that the program writes, whatever the names in a file hold.
 namespace bendy::cli {
 
+/// JSON with the letters escaped that JSON leaves alone and that a terminal, or a reader of lines, takes for more than
+/// text: they stand in strings only.
+std::string without_controls(std::string json);
+
 /// \param indentation  -1: all on one line
 template <class Json>
 std::string json_text(const Json& json, int indentation = -1) {
-    return json.dump(indentation, ' ', false, Json::error_handler_t::replace);
+    return without_controls(json.dump(indentation, ' ', false, Json::error_handler_t::replace));
 }
 
 /// To standard output, with the end of the line.

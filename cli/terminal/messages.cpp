@@ -43,6 +43,23 @@ std::size_t next_columns(const char*& at, const char* end) {
     return columns_of_letter(utf8::unchecked::next(at));
 }
 
+/// Whether a letter stands in a line as itself, and moves nothing else.
+bool is_shown(char32_t letter) {
+    constexpr std::array kHidden{Range{0x00, 0x1f},     Range{0x7f, 0x9f},     Range{0xad, 0xad},
+                                 Range{0x61c, 0x61c},   Range{0x180e, 0x180e}, Range{0x200b, 0x200b},
+                                 Range{0x200e, 0x200f}, Range{0x2028, 0x202e}, Range{0x2060, 0x206f},
+                                 Range{0xfeff, 0xfeff}, Range{0xfff9, 0xfffb}, Range{0xe0000, 0xe0fff}};
+    return !is_in(letter, kHidden.data(), kHidden.data() + kHidden.size());
+}
+
+/// "\x1b". \return the length
+std::size_t put_escape(std::string_view before, std::uint32_t number, std::size_t digits, char* to) {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    char* at = std::copy(before.begin(), before.end(), to);
+    for (std::size_t k = digits; k > 0; --k) *at++ = kDigits[number >> 4 * (k - 1) & 0xfu];
+    return static_cast<std::size_t>(at - to);
+}
+
 bool shows_colour(Stream stream) {
     static const char* const refused = std::getenv("NO_COLOR");  // NOLINT(concurrency-mt-unsafe): nothing changes it
     static const bool on_output = is_terminal(Stream::output);
@@ -54,22 +71,63 @@ bool shows_colour(Stream stream) {
 }  // namespace
 
 std::string shown_name(const std::filesystem::path& input) {
-    return input == "-" ? "standard input" : printable(input.string());
+    return input == "-" ? "standard input" : escaped(input.string());
+}
+
+std::size_t escape_letter(const char*& at, const char* end, char* to) {
+    constexpr std::ptrdiff_t kLongest = 4;
+    const char* const first = at;
+    if (utf8::find_invalid(at, at + std::min(kLongest, end - at)) == at) {
+        ++at;
+        return put_escape("\\x", static_cast<unsigned char>(*first), 2, to);
+    }
+    const char32_t letter = utf8::unchecked::next(at);
+    if (is_shown(letter)) return static_cast<std::size_t>(std::copy(first, at, to) - to);
+    if (letter < 0x80) return put_escape("\\x", letter, 2, to);
+    return letter < 0x10000 ? put_escape("\\u", letter, 4, to) : put_escape("\\U", letter, 8, to);
+}
+
+std::string escaped(std::string_view text) {
+    std::string out;
+    std::array<char, kMostEscaped> letter{};
+    const char* const end = text.data() + text.size();
+    for (const char* at = text.data(); at != end;) {
+        const std::size_t size = escape_letter(at, end, letter.data());
+        out.append(letter.data(), size);
+    }
+    return out;
 }
 
 std::string printable(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte >= 0x20 && byte != 0x7f) {
-            out += c;
-            continue;
+    constexpr std::size_t kMost = 600;
+    constexpr std::size_t kAtEnd = 150;
+    std::string out = escaped(text);
+    if (out.size() <= kMost) return out;
+    const auto is_inside_letter = [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) == 0x80u; };
+    std::size_t cut = kMost - kAtEnd;
+    std::size_t from = out.size() - kAtEnd;
+    while (is_inside_letter(out[cut])) --cut;
+    while (is_inside_letter(out[from])) --from;
+    return out.replace(cut, from - cut, "...");
+}
+
+std::string quoted_for_shell(std::string_view word) {
+    const std::string name = escaped(word);
+    constexpr std::string_view kPlain = "._-/+:,@%";
+    const bool is_plain = !name.empty() && std::all_of(name.begin(), name.end(), [&](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               static_cast<unsigned char>(c) >= 0x80 || kPlain.find(c) != std::string_view::npos;
+    });
+    if (is_plain) return name;
+    std::string text = "'";
+    for (const char c : name) {
+        if (c == '\'') {
+            text += "'\\''";
+        } else {
+            text += c;
         }
-        std::array<char, 5> escape{};
-        std::snprintf(escape.data(), escape.size(), "\\x%02x", static_cast<unsigned>(byte));
-        out += escape.data();
     }
-    return out;
+    return text + '\'';
 }
 
 std::string grouped(std::uint64_t number) {
@@ -124,7 +182,7 @@ std::string brief(std::string_view text) {
     std::size_t cut = std::min(kMost, text.size());
     while (cut > 0 && cut < text.size() && (static_cast<unsigned char>(text[cut]) & 0xc0u) == 0x80u)
         --cut;  // not inside a character
-    std::string shown = printable(text.substr(0, cut));
+    std::string shown = escaped(text.substr(0, cut));
     if (cut < text.size()) shown += "...";
     return shown;
 }
@@ -151,7 +209,7 @@ std::string warning_label() {
 }
 
 void fail(const std::filesystem::path& file, std::string_view what) {
-    std::cerr << error_label() << shown_name(file) << ": " << what << '\n';
+    std::cerr << error_label() << shown_name(file) << ": " << printable(what) << '\n';
     throw Failed{1, file, std::string(what)};
 }
 
@@ -160,7 +218,7 @@ void fail(const std::filesystem::path& file, const Error& error, Bytes bytes) {
 }
 
 void warn(const std::filesystem::path& file, std::string_view what) {
-    std::cerr << warning_label() << shown_name(file) << ": " << what << '\n';
+    std::cerr << warning_label() << shown_name(file) << ": " << printable(what) << '\n';
 }
 
 void print_warnings(const std::filesystem::path& file, const converter::Report& report) {
@@ -172,7 +230,7 @@ void print_warnings(const std::filesystem::path& file, const converter::Report& 
         warn(file, printable(line));
     }
     for (const std::string& line : report.suggestions())
-        std::cerr << "bendy: note: " << printable(file.string()) << ": " << printable(line) << '\n';
+        std::cerr << "bendy: note: " << shown_name(file) << ": " << printable(line) << '\n';
 }
 
 void print_proposals(const converter::Report& report) {
@@ -181,7 +239,8 @@ void print_proposals(const converter::Report& report) {
 
 void print_fault_lines(std::ostream& out, const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
     for (const Error& fault : faults.list())
-        out << shown_name(file) << ": " << code_name(fault.code) << ": " << describe_with_place(fault, bytes) << '\n';
+        out << shown_name(file) << ": " << code_name(fault.code) << ": " << printable(describe_with_place(fault, bytes))
+            << '\n';
     if (faults.left_out() != 0) out << shown_name(file) << ": " << grouped(faults.left_out()) << " more faults\n";
 }
 

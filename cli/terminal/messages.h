@@ -19,8 +19,18 @@ namespace bendy::cli {
 
 /// An input's name for a terminal; a dash is standard input.
 std::string shown_name(const std::filesystem::path& input);
-/// Text for a terminal: control characters are escaped, so that a name cannot move the cursor or forge a line.
+/// Text with everything escaped that a terminal does not show as a letter of its own, so that a name cannot move the
+/// cursor, forge a line or turn the direction of writing: control characters (also U+0080 to U+009F), line and
+/// paragraph separators, bidirectional and other invisible format characters, and bytes that are not UTF-8.
+std::string escaped(std::string_view text);
+/// The same for one letter: writes it to `to`, which has room for kMostEscaped bytes, and moves `at`, which is before
+/// `end`, behind it. \return how many bytes were written. May be called from signal handlers.
+std::size_t escape_letter(const char*& at, const char* end, char* to);
+inline constexpr std::size_t kMostEscaped = 10;
+/// Escaped text for one line of a message: the middle of a very long one is left out.
 std::string printable(std::string_view text);
+/// A word of a command that is suggested to the user, as a shell reads it: in single quotes if need be.
+std::string quoted_for_shell(std::string_view word);
 /// 1234567 as "1,234,567".
 std::string grouped(std::uint64_t number);
 /// "1 mesh", "1,200 meshes". \param many  `one` with an s if not given
@@ -46,7 +56,7 @@ std::string brief(const std::array<float, N>& numbers) {
     return text;
 }
 
-/// The text up to 72 bytes, printable; "..." where it was cut.
+/// The text up to 72 bytes, escaped; "..." where it was cut.
 std::string brief(std::string_view text);
 
 /// Adds a part to a line, after ", " if it is not the first.
@@ -69,11 +79,11 @@ struct Failed {
     std::string what = {};
 };
 
-/// Prints `bendy: error: FILE: what is wrong` to standard error and throws Failed.
+/// Prints `bendy: error: FILE: what is wrong` to standard error, made printable, and throws Failed.
 [[noreturn]] void fail(const std::filesystem::path& file, std::string_view what);
 /// The same for a fault in a file's bytes, with chunk path and offset.
 [[noreturn]] void fail(const std::filesystem::path& file, const Error& error, Bytes bytes);
-/// Prints `bendy: warning: FILE: what` to standard error.
+/// Prints `bendy: warning: FILE: what` to standard error, made printable.
 void warn(const std::filesystem::path& file, std::string_view what);
 
 /// Prints what a conversion has left out or changed, and what it suggests, a line each, to standard error.
