@@ -1,4 +1,5 @@
 #include "commands/commands.h"
+#include "files/signals.h"
 #include "terminal/console.h"
 #include "terminal/messages.h"
 
@@ -174,11 +175,12 @@ int run(std::vector<std::string> words) {
 int main(int argc, char** argv) {
     try {
         bendy::cli::prepare_console();
+        bendy::cli::watch_signals();
         return run(bendy::cli::command_line(argc, argv));
     } catch (const std::bad_alloc&) {
         std::fputs("bendy: error: not enough memory\n", stderr);
     } catch (const std::exception& problem) {
-        std::fprintf(stderr, "bendy: error: %s\n", problem.what());
+        std::fprintf(stderr, "bendy: error: %s\n", bendy::cli::printable(problem.what()).c_str());
     } catch (...) {
         std::fputs("bendy: error: something that has no name went wrong\n", stderr);
     }

@@ -1,6 +1,7 @@
 #include "commands/commands.h"
 #include "diff/reports.h"
 #include "files/input.h"
+#include "files/signals.h"
 #include "terminal/json.h"
 #include "terminal/messages.h"
 #include "terminal/progress.h"
@@ -225,6 +226,7 @@ bool are_same(const DiffArguments& arguments) {
 
 void run(const DiffArguments& arguments) {
     bool same = false;
+    set_status_of_failures(kTrouble);
     try {
         same = are_same(arguments);
         std::cout.flush();
@@ -236,7 +238,7 @@ void run(const DiffArguments& arguments) {
                   << ": tracks share more keys than can be compared\n";
         throw Failed{kTrouble};
     } catch (const std::exception& problem) {
-        std::cerr << error_label() << problem.what() << '\n';
+        std::cerr << error_label() << printable(problem.what()) << '\n';
         throw Failed{kTrouble};
     }
     if (!same) throw Failed{kDiffers};

@@ -11,6 +11,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace bendy::cli {
 namespace {
@@ -68,11 +69,12 @@ std::uint64_t export_gltf(const ExportArguments& arguments, Bytes file, bool is_
         outputs.write(arguments.output, *glb);
         return glb->size();
     }
+    std::vector<FileContents> files{{arguments.output, as_byte_span(asset->json)}};
     if (!asset->buffer.empty()) {
         outputs.writes_beside(buffer_file, arguments.output);
-        outputs.write(buffer_file, asset->buffer);
+        files.push_back({buffer_file, asset->buffer});
     }
-    outputs.write(arguments.output, asset->json);
+    outputs.write(files);
     return asset->json.size() + asset->buffer.size();
 }
 
@@ -87,16 +89,16 @@ std::uint64_t export_x(const ExportArguments& arguments, Bytes file, Outputs& ou
     if (!asset) fail(arguments.file, printable(asset.error().message));
     std::uint64_t size = asset->text.size();
     const std::filesystem::path folder = arguments.output.parent_path();
-    for (const converter::XAsset::File& image : asset->images)
-        outputs.writes_beside(folder / image.name, arguments.output);
+    std::vector<FileContents> files{{arguments.output, as_byte_span(asset->text)}};
     for (const converter::XAsset::File& image : asset->images) {
-        outputs.write(folder / image.name, image.bytes);
+        outputs.writes_beside(folder / image.name, arguments.output);
+        files.push_back({folder / image.name, image.bytes});
         size += image.bytes.size();
     }
-    outputs.write(arguments.output, asset->text);
+    outputs.write(files);
     if (!arguments.quiet && !asset->images.empty()) {
         std::cout << "images beside it:";
-        for (const converter::XAsset::File& image : asset->images) std::cout << ' ' << printable(image.name);
+        for (const converter::XAsset::File& image : asset->images) std::cout << ' ' << escaped(image.name);
         std::cout << '\n';
     }
     return size;

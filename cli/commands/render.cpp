@@ -230,7 +230,7 @@ void run(RenderArguments arguments) {
     if (!arguments.background.empty()) parse_background(arguments.background, arguments.render.draw.background);
     arguments.render.draw.targets = arguments.render.draw.constraints;
     require_folder_of(arguments.output);
-    const CharacterFile file = open_character(arguments.file, arguments.root, outputs);
+    const CharacterFile file = open_character(arguments.file, arguments.root, outputs, Storage::copied);
     const Model model = read_model(arguments.file, file.bytes());
     arguments.render.folders = folders_of(arguments.file, arguments.root);
     note_inputs(arguments, model, outputs);

@@ -23,7 +23,7 @@ struct ViewArguments {
 /// The bytes of a bendy file, or of one of another kind converted.
 std::vector<std::byte> open_any(const std::filesystem::path& file, const std::filesystem::path& root) {
     converter::Report report;
-    const auto character = read_character(file, root, report);
+    const auto character = read_character(file, root, report, Storage::copied);
     if (!character)
         throw viewer::ViewerError(file_of(character.error(), file).string() + ": " + describe(character.error()));
     print_warnings(file, report);

@@ -9,6 +9,7 @@
 #include <bendy/format/file.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -79,8 +80,8 @@ private:
         const auto [earlier, is_new] = files_.try_emplace(plain(output), BatchFile{input, folder, place, output});
         if (!is_new && plain(earlier->second.input) != plain(input)) {
             plan_.clashes.push_back({input, output,
-                                     "both " + printable(earlier->second.input.string()) + " and " +
-                                         printable(input.string()) + " would be written there"});
+                                     "both " + escaped(earlier->second.input.string()) + " and " +
+                                         escaped(input.string()) + " would be written there"});
         }
         outputs_.reads(input);
     }
@@ -138,7 +139,10 @@ bool BatchRecord::knows(const BatchFile& file) const {
 
 void BatchRecord::read() {
     const Result<MappedFile> mapped = MappedFile::open(file_);
-    if (!mapped) return;
+    if (!mapped) {
+        if (mapped.error().value != ENOENT) warn(file_, "what was done before is unknown: " + describe(mapped.error()));
+        return;
+    }
     const nlohmann::json record = nlohmann::json::parse(as_text(mapped->bytes()));
     for (const auto& [output, members] : record.at("outputs").items()) {
         Entry entry{members.at("recipe").get<std::string>(), as_stamp(members.at("output")), {}};

@@ -1,6 +1,7 @@
 #include "convert/batch.h"
 #include "convert/conversion.h"
 #include "files/output.h"
+#include "files/signals.h"
 #include "terminal/json.h"
 #include "terminal/messages.h"
 #include "terminal/progress.h"
@@ -12,8 +13,6 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <csignal>
-#include <cstdlib>
 #include <exception>
 #include <iomanip>
 #include <iostream>
@@ -33,49 +32,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::atomic<int> noted{0};
-static_assert(std::atomic<int>::is_always_lock_free);  // or a handler must not touch it
-
-extern "C" void note(int signal) {
-    noted = signal;
-    std::signal(signal, SIG_DFL);
-}
-
-/// Leaves a signal alone that whoever started the program has switched off, as nohup does.
-void watch(int signal) {
-    if (std::signal(signal, note) == SIG_IGN) std::signal(signal, SIG_IGN);
-}
-
-void forget(int signal) {
-    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
-}
-
-/// While it lives, the first SIGINT or SIGTERM is only noted; a second one ends the program at once.
-class Interrupt {
-public:
-    Interrupt() {
-        watch(SIGINT);
-        watch(SIGTERM);
-    }
-    Interrupt(const Interrupt&) = delete;
-    Interrupt& operator=(const Interrupt&) = delete;
-    Interrupt(Interrupt&&) = delete;
-    Interrupt& operator=(Interrupt&&) = delete;
-    ~Interrupt() {
-        forget(SIGINT);
-        forget(SIGTERM);
-    }
-
-    /// True after a signal.
-    [[nodiscard]] static bool has_come() { return noted != 0; }
-    /// Ends the program by that signal, as the shell expects it.
-    [[noreturn]] static void obey() {
-        std::signal(noted, SIG_DFL);
-        std::raise(noted);
-        std::_Exit(EXIT_FAILURE);  // where signals end nothing
-    }
-};
-
 struct Totals {
     std::uint64_t converted = 0;
     std::uint64_t up_to_date = 0;
@@ -86,7 +42,7 @@ struct Totals {
 
 void print_problem(const ConvertArguments& arguments, const BatchProblem& problem) {
     const std::filesystem::path& file = problem.output.empty() ? problem.input : problem.output;
-    std::cerr << error_label() << printable(file.string()) << ": " << problem.what << '\n';
+    std::cerr << error_label() << escaped(file.string()) << ": " << printable(problem.what) << '\n';
     if (arguments.json) print_report(failed_report(problem.input, problem.output, {}, file, problem.what));
 }
 
@@ -169,8 +125,9 @@ private:
             const BatchFile& file = *to_do_[next];
             const Clock::time_point start = Clock::now();
             Outcome outcome;
+            std::shared_lock writing(writing_, std::defer_lock);  // until what was written is accounted for
             try {
-                outcome.failure = convert(next, outcome);
+                outcome.failure = convert(next, outcome, writing);
             } catch (const std::exception& problem) {
                 outcome.failure = Failure{file.input, problem.what()};
             }
@@ -185,18 +142,21 @@ private:
         }
     }
 
-    /// An output that is there, and neither this program nor a batch to the same place has written.
-    [[nodiscard]] bool is_foreign(const BatchFile& file) {
+    /// Why an output that is there must stay: neither this program nor a batch to the same place has written it. Empty
+    /// if it may be replaced.
+    [[nodiscard]] std::string why_it_stays(const BatchFile& file) {
         std::error_code ignored;
-        if (arguments_.force || !std::filesystem::exists(file.output, ignored)) return false;
-        if (was_written_by_bendy(file.output)) return false;
+        if (arguments_.force || !std::filesystem::exists(file.output, ignored)) return {};
+        std::string problem = why_not_replaced(file.output);
+        if (problem.empty()) return {};
         const std::lock_guard lock(state_);
-        return !record_of(file).knows(file);
+        return record_of(file).knows(file) ? std::string() : problem;
     }
 
-    std::optional<Failure> convert(std::size_t number, Outcome& outcome) {
+    /// \param writing  is locked before anything is written
+    std::optional<Failure> convert(std::size_t number, Outcome& outcome, std::shared_lock<std::shared_mutex>& writing) {
         const BatchFile& file = *to_do_[number];
-        if (is_foreign(file)) return Failure{file.output, "is there, and bendy did not write it: --force replaces it"};
+        if (const std::string problem = why_it_stays(file); !problem.empty()) return Failure{file.output, problem};
         converter::ConvertOptions options = options_of(arguments_);
         options.output = file.output;
         options.threads = threads_per_file_;
@@ -207,7 +167,7 @@ private:
         if (!bytes) return Failure{file_of(bytes.error(), file.input), describe(bytes.error())};
         outcome.size = bytes->size();
         if (arguments_.json) outcome.json = converted_report(file.input, file.output, outcome.report, *bytes);
-        const std::shared_lock writing(writing_);
+        writing.lock();
         std::error_code problem;
         if (file.output.has_parent_path()) std::filesystem::create_directories(file.output.parent_path(), problem);
         if (problem) return Failure{file.output.parent_path(), "cannot be made: " + problem.message()};
@@ -247,8 +207,8 @@ private:
     }
 
     static void print_failure(const BatchFile& file, const Failure& failure) {
-        std::cerr << error_label() << printable(failure.file.string()) << ": " << failure.what;
-        if (failure.file != file.input) std::cerr << " (for " << printable(file.input.string()) << ')';
+        std::cerr << error_label() << escaped(failure.file.string()) << ": " << printable(failure.what);
+        if (failure.file != file.input) std::cerr << " (for " << escaped(file.input.string()) << ')';
         std::cerr << '\n';
     }
 
@@ -263,12 +223,12 @@ private:
         }
         print_warnings(file.input, outcome.report);
         for (const std::string& line : outcome.report.proposals())
-            std::cerr << "bendy: proposed: " << printable(file.input.string()) << ": " << printable(line) << '\n';
+            std::cerr << "bendy: proposed: " << escaped(file.input.string()) << ": " << printable(line) << '\n';
         if (outcome.failure) {
             print_failure(file, *outcome.failure);
         } else if (!arguments_.quiet) {
             std::ostringstream line;
-            line << printable(file.input.string()) << " -> " << printable(file.output.string()) << "  "
+            line << escaped(file.input.string()) << " -> " << escaped(file.output.string()) << "  "
                  << grouped(outcome.size) << " bytes  ";
             if (const std::uint64_t count = outcome.report.warnings().size(); count != 0)
                 line << count << (count == 1 ? " warning  " : " warnings  ");
@@ -307,14 +267,16 @@ private:
             constexpr auto kPatience = std::chrono::milliseconds(50);
             constexpr std::size_t kTurnsPerFrame = 5;
             finished_.wait_for(lock, kPatience);
-            if (Interrupt::has_come()) stop();
+            if (Interrupt::has_come()) stop(lock);
             if (turn % kTurnsPerFrame == 0 && bar_.is_terminal()) show_bar();
         }
     }
 
-    /// `state_` is held; who writes does not wait for it.
-    [[noreturn]] void stop() {
+    /// Waits for what is being written, and counts it. Nothing is written from then on.
+    [[noreturn]] void stop(std::unique_lock<std::mutex>& lock) {
+        lock.unlock();  // who writes takes `state_` last
         const std::unique_lock none_writes(writing_);
+        lock.lock();
         write_record();
         bar_.clear();
         for (; told_ < outcomes_.size(); ++told_) {
@@ -362,7 +324,7 @@ private:
     std::vector<std::thread> workers_;
     unsigned threads_per_file_ = 1;
     std::atomic<std::size_t> next_{0};
-    std::shared_mutex writing_;  // shared while an output is written
+    std::shared_mutex writing_;  // shared while an output is written and accounted for; locked before `state_`
 
     std::mutex state_;  // guards what follows, and the output streams
     std::condition_variable finished_;

@@ -50,10 +50,10 @@ Result<std::vector<std::byte>, converter::ImportError> converted_input(const std
 
 }  // namespace
 
-Result<InputBytes> InputBytes::open(const std::filesystem::path& file) {
+Result<InputBytes> InputBytes::open(const std::filesystem::path& file, Storage storage) {
     InputBytes input;
     if (!is_dash(file)) {
-        Result<MappedFile> mapped = MappedFile::open(file);
+        Result<MappedFile> mapped = storage == Storage::copied ? MappedFile::read(file) : MappedFile::open(file);
         if (!mapped) return mapped.error();
         input.mapped_ = *std::move(mapped);
         return input;
@@ -90,14 +90,14 @@ std::string why_not_bendy(const std::filesystem::path& file, Bytes bytes) {
     return kind ? converter::why_not_bendy(*kind, file) : std::string();
 }
 
-InputBytes open_file(const std::filesystem::path& file) {
-    Result<InputBytes> mapped = InputBytes::open(file);
+InputBytes open_file(const std::filesystem::path& file, Storage storage) {
+    Result<InputBytes> mapped = InputBytes::open(file, storage);
     if (!mapped) fail(file, why_not_opened(file, mapped.error()));
     return *std::move(mapped);
 }
 
-InputBytes open_bendy_file(const std::filesystem::path& file) {
-    InputBytes mapped = open_file(file);
+InputBytes open_bendy_file(const std::filesystem::path& file, Storage storage) {
+    InputBytes mapped = open_file(file, storage);
     if (const std::string why = why_not_bendy(file, mapped.bytes()); !why.empty()) fail(file, printable(why));
     return mapped;
 }
@@ -120,8 +120,8 @@ ReadableFolders folders_of(const std::filesystem::path& file, const std::filesys
 
 Result<CharacterFile, converter::ImportError> read_character(const std::filesystem::path& file,
                                                              const std::filesystem::path& root,
-                                                             converter::Report& report) {
-    Result<InputBytes> mapped = InputBytes::open(file);
+                                                             converter::Report& report, Storage storage) {
+    Result<InputBytes> mapped = InputBytes::open(file, storage);
     if (!mapped) return converter::ImportError{{}, why_not_opened(file, mapped.error())};
     const auto kind = converter::find_file_kind(mapped->bytes(), file);
     const bool is_bendy = kind && kind->format == converter::SourceFormat::bendy;
@@ -133,9 +133,10 @@ Result<CharacterFile, converter::ImportError> read_character(const std::filesyst
     return CharacterFile(*std::move(converted));
 }
 
-CharacterFile open_character(const std::filesystem::path& file, const std::filesystem::path& root, Outputs& outputs) {
+CharacterFile open_character(const std::filesystem::path& file, const std::filesystem::path& root, Outputs& outputs,
+                             Storage storage) {
     converter::Report report;
-    auto character = read_character(file, root, report);
+    auto character = read_character(file, root, report, storage);
     for (const converter::SourceFile& source : report.sources()) outputs.reads(source.file);
     if (!character) fail(file_of(character.error(), file), describe(character.error()));
     print_warnings(file, report);

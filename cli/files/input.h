@@ -26,7 +26,7 @@ inline bool is_dash(const std::filesystem::path& file) {
 class InputBytes {
 public:
     /// Standard input is read to its end, once in a run and at most kMostPiped bytes: the error is EFBIG past them.
-    static Result<InputBytes> open(const std::filesystem::path& file);
+    static Result<InputBytes> open(const std::filesystem::path& file, Storage storage = Storage::mapped);
     /// The same; what cannot be read is printed, and Failed thrown.
     static InputBytes read(const std::filesystem::path& file);
 
@@ -45,11 +45,11 @@ private:
 };
 
 /// Maps a file of any kind, or reads standard input; as all functions here. Fails if it cannot be read.
-InputBytes open_file(const std::filesystem::path& file);
+InputBytes open_file(const std::filesystem::path& file, Storage storage = Storage::mapped);
 
 /// Maps a file that is to be a bendy file. Fails, with the command that makes one of it, if it is known to be something
 /// else; what is not known at all goes through.
-InputBytes open_bendy_file(const std::filesystem::path& file);
+InputBytes open_bendy_file(const std::filesystem::path& file, Storage storage = Storage::mapped);
 
 /// The chunks of a file's bytes, or its character. Fails, with the place, if they cannot be read.
 ChunkTree read_tree(const std::filesystem::path& file, Bytes bytes);
@@ -80,9 +80,11 @@ ReadableFolders folders_of(const std::filesystem::path& file, const std::filesys
 /// empty
 Result<CharacterFile, converter::ImportError> read_character(const std::filesystem::path& file,
                                                              const std::filesystem::path& root,
-                                                             converter::Report& report);
+                                                             converter::Report& report,
+                                                             Storage storage = Storage::mapped);
 /// The same; prints what the conversion has to say, as `convert` does, and fails if something is wrong.
 /// \param outputs  learns what was read
-CharacterFile open_character(const std::filesystem::path& file, const std::filesystem::path& root, Outputs& outputs);
+CharacterFile open_character(const std::filesystem::path& file, const std::filesystem::path& root, Outputs& outputs,
+                             Storage storage = Storage::mapped);
 
 }  // namespace bendy::cli

@@ -2,6 +2,7 @@
 
 #include "files/input.h"
 #include "terminal/console.h"
+#include "terminal/json.h"
 #include "terminal/messages.h"
 
 #include <bendy/format/chunk.h>
@@ -168,23 +169,14 @@ bool refers_to(const fs::path& file, const fs::path& other) {
     return std::any_of(buffers.begin(), buffers.end(), [&](const std::string& uri) { return decoded(uri) == name; });
 }
 
-constexpr const char* kForeign = "is there, and bendy did not write it: --force replaces it, -o writes elsewhere";
-
 bool is_picture(std::string_view suffix) {
     constexpr std::array<std::string_view, 12> kPictures{".jpg",  ".jpeg", ".bmp", ".tga",  ".tif", ".tiff",
                                                          ".avif", ".apng", ".mp4", ".webm", ".mov", ".avi"};
     return std::find(kPictures.begin(), kPictures.end(), suffix) != kPictures.end();
 }
 
-/// A name as a shell reads it; for people, so control characters are escaped.
 std::string quoted(const fs::path& file) {
-    const std::string name = printable(file.string());
-    constexpr std::string_view kPlain = "._-/+=:,@%";
-    const bool is_plain = std::all_of(name.begin(), name.end(), [&](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               static_cast<unsigned char>(c) >= 0x80 || kPlain.find(c) != std::string_view::npos;
-    });
-    return is_plain ? name : '"' + name + '"';
+    return quoted_for_shell(file.string());
 }
 
 /// "bendy export fox.bendy -o fox.glb", where need be with the command that makes the bendy file first.
@@ -211,13 +203,28 @@ std::string list(const std::vector<std::string_view>& suffixes) {
 
 }  // namespace
 
-bool was_written_by_bendy(const fs::path& file) {
+namespace {
+
+constexpr const char* kForeign = "is there, and bendy did not write it: --force replaces it, -o writes elsewhere";
+
+/// Whether a file says of itself that this program wrote it, in any version: a bendy file in its VERS, glTF in
+/// asset.generator, an X-file in its second line.
+Result<bool> was_written_by_bendy(const fs::path& file) {
     const Result<MappedFile> mapped = MappedFile::open(file);
-    if (!mapped || mapped->bytes().empty()) return false;
+    if (!mapped) return mapped.error();
     const Bytes bytes = mapped->bytes();
     if (is_bendy(bytes)) return is_ours(generator_of_bendy_file(bytes));
     if (as_text(bytes).starts_with(kXFile)) return is_ours(generator_of_x_file(as_text(bytes)));
     return is_ours(read_asset(bytes).generator);
+}
+
+}  // namespace
+
+std::string why_not_replaced(const fs::path& file) {
+    const auto is_ours = was_written_by_bendy(file);
+    if (is_ours && *is_ours) return {};
+    if (is_ours) return kForeign;
+    return "is there, and who wrote it cannot be read: " + describe(is_ours.error());
 }
 
 void Outputs::reads(const fs::path& input) {
@@ -244,7 +251,9 @@ std::string Outputs::claim(const fs::path& output, NamedBy named) {
         if (const auto identity = identity_of(output)) is_new = replaced_.insert(*identity).second && is_new;
         if (!is_new) return "would be written twice: give each output a name of its own";
     }
-    if (named == NamedBy::program && !force_ && is_there(output) && !was_written_by_bendy(output)) return kForeign;
+    if (named == NamedBy::program && !force_ && is_there(output)) {
+        if (std::string problem = why_not_replaced(output); !problem.empty()) return problem;
+    }
     outputs_.insert(output);
     return {};
 }
@@ -261,25 +270,39 @@ void Outputs::writes(const fs::path& output, NamedBy named, Content content) {
 
 void Outputs::writes_beside(const fs::path& output, const fs::path& beside) {
     fail_if(claim(output, NamedBy::user), output);
-    if (!force_ && is_there(output) && !(was_written_by_bendy(beside) && refers_to(beside, output)))
-        fail(output_name(output), kForeign);
+    if (force_ || !is_there(output)) return;
+    // It carries no mark itself.
+    if (!why_not_replaced(beside).empty() || !refers_to(beside, output)) fail(output_name(output), kForeign);
 }
 
-void Outputs::write(const fs::path& output, Bytes bytes) const {
-    assert(outputs_.contains(output));
+void Outputs::write(std::span<const FileContents> files) const {
     for (const fs::path& claimed : outputs_) {
         if (const fs::path* input = input_at(claimed))
             fail(output_name(claimed), "is an input as well as an output: " + shown_name(*input) + " was read");
     }
-    if (is_dash(output)) {
-        const auto text = as_text(bytes);
-        std::cout.write(text.data(), static_cast<std::streamsize>(text.size()));
-        return;
+    std::vector<FileContents> named;
+    for (const FileContents& file : files) {
+        assert(outputs_.contains(file.path));
+        if (!is_dash(file.path)) named.push_back(file);
     }
-    if (const auto written = write_file(output, bytes); !written) fail(output, describe(written.error()));
+    if (const auto written = write_files(named); !written)
+        fail(named[written.error().file].path, describe(written.error().error));
+    for (const FileContents& file : files) {
+        const auto text = as_text(file.bytes);
+        if (is_dash(file.path)) std::cout.write(text.data(), static_cast<std::streamsize>(text.size()));
+    }
+}
+
+void Outputs::write(const fs::path& output, Bytes bytes) const {
+    const FileContents file{output, bytes};
+    write({&file, 1});
 }
 
 void Outputs::write(const fs::path& output, std::string_view text) const {
+    if (is_dash(output) && is_terminal(Stream::output)) {
+        const std::string shown = without_controls(std::string(text));
+        return write(output, as_byte_span(shown));
+    }
     write(output, as_byte_span(text));
 }
 
@@ -292,7 +315,7 @@ std::ostream& summary_stream(const fs::path& output) {
 }
 
 std::ostream& print_size(const fs::path& output, std::uint64_t bytes) {
-    return summary_stream(output) << printable(output_name(output)) << ": " << grouped(bytes) << " bytes";
+    return summary_stream(output) << escaped(output_name(output)) << ": " << grouped(bytes) << " bytes";
 }
 
 void require_folder_of(const fs::path& output) {
@@ -301,9 +324,9 @@ void require_folder_of(const fs::path& output) {
     std::error_code unknown;
     const fs::file_status status = fs::status(folder, unknown);
     if (status.type() == fs::file_type::not_found) {
-        fail(output, "there is no folder " + printable(folder.string()) + ": make it first");
+        fail(output, "there is no folder " + escaped(folder.string()) + ": make it first");
     } else if (fs::exists(status) && !fs::is_directory(status)) {
-        fail(output, printable(folder.string()) + " is a file, not a folder");
+        fail(output, escaped(folder.string()) + " is a file, not a folder");
     }
 }
 
@@ -322,15 +345,15 @@ void check_suffix(const Writes& writes, const fs::path& input, const fs::path& o
     if (is_dash(output)) return;
     if (writes.has(suffix)) {
         if (format.empty() || suffix == '.' + format) return;
-        throw CLI::ValidationError("--format", format + " is not what " + printable(output.string()) + " would be");
+        throw CLI::ValidationError("--format", format + " is not what " + escaped(output.string()) + " would be");
     }
     const Meaning* meaning = find_meaning(suffix);
     const std::string option(writes.option);
     if (meaning == nullptr) {
         if (writes.others_too || !format.empty()) return;
-        throw CLI::ValidationError(option, printable(output.string()) + " must end in " + list(writes.suffixes));
+        throw CLI::ValidationError(option, escaped(output.string()) + " must end in " + list(writes.suffixes));
     }
-    std::string what = printable(output.string()) + " would be " + std::string(meaning->format) + ", which ";
+    std::string what = escaped(output.string()) + " would be " + std::string(meaning->format) + ", which ";
     if (!meaning->command.empty()) {
         what += "`bendy " + std::string(writes.command) + "` does not write: ";
         throw CLI::ValidationError(option, what + commands_for(writes, *meaning, input, output));

@@ -3,6 +3,7 @@
 #include "files/suffixes.h"
 
 #include <bendy/format/byte_reader.h>
+#include <bendy/format/file.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,9 +31,9 @@ std::optional<FileIdentity> identity_of(const std::filesystem::path& file);
 std::optional<FileIdentity> identity_of_standard_input();
 std::optional<FileIdentity> identity_of_standard_output();
 
-/// Whether a file says of itself that this program wrote it, in any version: a bendy file in its VERS, glTF in
-/// asset.generator, an X-file in its second line. False for all other files, and for what cannot be read.
-bool was_written_by_bendy(const std::filesystem::path& file);
+/// Why a file that is there must not be replaced by a name that the program chose, in words that follow its name; empty
+/// if it says of itself that bendy wrote it, in any version.
+std::string why_not_replaced(const std::filesystem::path& file);
 
 /// Who chose an output's name.
 enum class NamedBy : std::uint8_t {
@@ -59,8 +61,11 @@ public:
     /// only if bendy wrote `beside` and it refers to that file.
     void writes_beside(const std::filesystem::path& output, const std::filesystem::path& beside);
 
-    /// Writes an output that was noted. Fails where any of them has turned out to be an input since.
+    /// Writes outputs that were noted: together, or none of them. Fails where any of them has turned out to be an input
+    /// since.
+    void write(std::span<const FileContents> files) const;
     void write(const std::filesystem::path& output, Bytes bytes) const;
+    /// Text that goes to a terminal has what is no letter escaped.
     void write(const std::filesystem::path& output, std::string_view text) const;
 
 private:

@@ -1,12 +1,19 @@
 // To be preloaded (LD_PRELOAD): lets one call of the system or of malloc fail, where a test asks for it.
-//   BENDY_FAIL=write|open|fsync|close|rename|malloc   which call; of files, those that are opened for writing count
+//   BENDY_FAIL=write|open|fsync|close|rename|malloc|link|read|map   which call; of files, those that are opened for
+//   writing
+//                              count, with read those that are opened for reading; map: a file was mapped
 //   BENDY_FAIL_AT=n            which of them, 1 the first; it and all later ones of its kind, but of malloc only it
-//   BENDY_FAIL_HOW=error|short|kill   say that the disk is full; write half of it first; end the program at once
+//   BENDY_FAIL_HOW=error|once|short|kill|stop   say that the disk is full, or of reading that too many files are open;
+//   only of
+//                              this one call; write half of it first; end the program at once; stop it until it is
+//                              continued
+//   BENDY_FAIL_LINK=1          besides, no hard link can be made
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE
 #endif
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -46,11 +53,22 @@ bool is_how(const char* how) {
 /// Whether this call of that kind is to fail; does not come back if it is to end the program.
 bool fails(const char* kind) {
     if (!is_wanted(kind)) return false;
-    const char* const at = std::getenv("BENDY_FAIL_AT");
-    if (++calls < (at == nullptr ? 1 : std::atol(at))) return false;
+    const char* const text = std::getenv("BENDY_FAIL_AT");
+    const long at = text == nullptr ? 1 : std::atol(text);
+    const long call = ++calls;
+    if (call < at || (call > at && (is_how("once") || is_how("stop")))) return false;
     if (is_how("kill")) raise(SIGKILL);
-    errno = ENOSPC;
+    if (is_how("stop")) {
+        raise(SIGSTOP);
+        return false;
+    }
+    errno = is_wanted("read") ? EMFILE : ENOSPC;
     return true;
+}
+
+/// Whether a path is one of the test's files, which have no folder before them.
+bool is_plain_name(const char* path) {
+    return is_in_main && std::strchr(path, '/') == nullptr;
 }
 
 bool is_output_file(int file) {
@@ -89,6 +107,7 @@ int open(const char* path, int flags, ...) {
     const mode_t mode = mode_of(flags, list);
     va_end(list);
     if ((flags & O_ACCMODE) != O_RDONLY && fails("open")) return -1;
+    if ((flags & O_ACCMODE) == O_RDONLY && is_plain_name(path) && fails("read")) return -1;
     return note_open(next<int (*)(const char*, int, mode_t)>("open")(path, flags, mode), flags);
 }
 
@@ -98,6 +117,7 @@ int open64(const char* path, int flags, ...) {
     const mode_t mode = mode_of(flags, list);
     va_end(list);
     if ((flags & O_ACCMODE) != O_RDONLY && fails("open")) return -1;
+    if ((flags & O_ACCMODE) == O_RDONLY && is_plain_name(path) && fails("read")) return -1;
     return note_open(next<int (*)(const char*, int, mode_t)>("open64")(path, flags, mode), flags);
 }
 
@@ -129,6 +149,31 @@ int close(int file) {
 int rename(const char* from, const char* to) {
     if (fails("rename")) return -1;
     return next<int (*)(const char*, const char*)>("rename")(from, to);
+}
+
+int link(const char* from, const char* to) {
+    if (fails("link") || std::getenv("BENDY_FAIL_LINK") != nullptr) {
+        errno = EPERM;  // as a file system without hard links says
+        return -1;
+    }
+    return next<int (*)(const char*, const char*)>("link")(from, to);
+}
+
+FILE* fopen(const char* path, const char* mode) {
+    if (mode[0] == 'r' && is_plain_name(path) && fails("read")) return nullptr;
+    return next<FILE* (*)(const char*, const char*)>("fopen")(path, mode);
+}
+
+FILE* fopen64(const char* path, const char* mode) {
+    if (mode[0] == 'r' && is_plain_name(path) && fails("read")) return nullptr;
+    return next<FILE* (*)(const char*, const char*)>("fopen64")(path, mode);
+}
+
+void* mmap(void* at, size_t size, int protection, int flags, int file, off_t offset) {
+    void* const mapped =
+        next<void* (*)(void*, size_t, int, int, int, off_t)>("mmap")(at, size, protection, flags, file, offset);
+    if (is_in_main && file >= 0 && protection == PROT_READ) (void)fails("map");
+    return mapped;
 }
 
 void* malloc(size_t size) {

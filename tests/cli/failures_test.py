@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Lets calls of the system and of malloc fail beneath the program: the old output stays, no other file does, and the
-program ends by itself and says why.
+"""Lets calls of the system and of malloc fail beneath the program, and stops it between them: the old outputs stay, all of
+them, no other file does, and the program ends by itself and says why.
 
     failures_test.py --bendy PROGRAM --source SOURCE_DIR --failing-calls LIBRARY [unittest's own arguments]
 """
@@ -50,8 +50,8 @@ class Failures(unittest.TestCase):
         self.folder = Path(tempfile.mkdtemp(prefix="bendy_failures_"))
         self.addCleanup(shutil.rmtree, self.folder)
 
-    def bendy(self, *arguments, fail=None, at=1, how="error", **options):
-        environment = dict(os.environ)
+    def bendy(self, *arguments, fail=None, at=1, how="error", more=None, **options):
+        environment = dict(os.environ) | (more or {})
         if fail:
             environment |= {"LD_PRELOAD": LIBRARY, "BENDY_FAIL": fail, "BENDY_FAIL_AT": str(at), "BENDY_FAIL_HOW": how}
         return subprocess.run([BENDY, *(SOURCE / one if isinstance(one, Path) else one for one in arguments)],
@@ -106,6 +106,156 @@ class Failures(unittest.TestCase):
                     if entry != output:
                         self.assertRegex(entry.name, r"^\.bendy-\d+-\d+$")
                         entry.unlink()
+
+    def stopped(self, *arguments, fail, at=1, do):
+        """Runs a command that is stopped at a call, and continued after do(process): exit status and standard error."""
+        environment = os.environ | {"LD_PRELOAD": LIBRARY, "BENDY_FAIL": fail, "BENDY_FAIL_AT": str(at), "BENDY_FAIL_HOW": "stop"}
+        process = subprocess.Popen([BENDY, *(SOURCE / one if isinstance(one, Path) else one for one in arguments)],
+                                   cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   env=environment)
+        _, status = os.waitpid(process.pid, os.WUNTRACED)
+        if not os.WIFSTOPPED(status):
+            process.returncode = os.waitstatus_to_exitcode(status)
+            self.fail(f"{arguments} was not stopped: {process.stderr.read()}")
+        do(process)
+        process.send_signal(signal.SIGCONT)
+        _, errors = process.communicate(timeout=120)
+        return process.returncode, errors.decode()
+
+    def together(self):
+        """Commands that write several files, with those files: some are there already, and bendy has written them."""
+        (self.folder / "in.bendy").write_bytes((SOURCE / SEEDS / "rope.bendy").read_bytes())
+        (self.folder / "m.gltf").write_bytes((SOURCE / SEEDS / "rope.gltf").read_bytes())
+        for line, names in ((("export", "in.bendy", "-q", "-o", "a.gltf"), ["a.gltf", "a.bin"]),
+                            (("convert", "m.gltf", "-q", "-o", "m.bendy", "--depfile", "m.d"), ["m.bendy", "m.d"])):
+            for is_old in (True, False):
+                with self.subTest(command=line[0], is_old=is_old):
+                    before = dict.fromkeys(names)
+                    if is_old:
+                        self.assertEqual(self.bendy(*line, cwd=self.folder).returncode, 0)
+                        for name in names:
+                            with (self.folder / name).open("ab") as file:
+                                file.write(b"\n ")
+                            before[name] = (self.folder / name).read_bytes()
+                    yield line, names, before
+                for name in names:
+                    (self.folder / name).unlink(missing_ok=True)
+
+    def contents(self, names):
+        return {name: (self.folder / name).read_bytes() if (self.folder / name).exists() else None for name in names}
+
+    def nothing_is_beside(self):
+        self.assertEqual([entry.name for entry in self.folder.iterdir() if entry.name.startswith(".")], [])
+
+    def test_several_outputs_are_replaced_together_or_not_at_all(self):
+        for line, names, before in self.together():
+            for fail, at in (("open", 2), ("write", 2), ("fsync", 2), ("close", 2), ("rename", 1), ("rename", 2)):
+                with self.subTest(fail=fail, at=at):
+                    result = self.bendy(*line, fail=fail, at=at, how="once", cwd=self.folder)
+                    self.assertEqual(result.returncode, 1, result.stderr)
+                    self.assertRegex(result.stderr.decode(), rf"^bendy: error: ({'|'.join(names)}): .*No space left on device\n$"
+                                     if fail != "close" else "Input/output error")
+                    self.assertEqual(self.contents(names), before)
+                    self.nothing_is_beside()
+
+    def test_several_outputs_without_hard_links(self):
+        for line, names, before in self.together():
+            # Renames: the first file to its second name, the new one over it, the same of the other file.
+            for at in (3, 4) if any(before.values()) else ():
+                environment = {"BENDY_FAIL_LINK": "1"}
+                result = self.bendy(*line, fail="rename", at=at, how="once", cwd=self.folder, more=environment)
+                self.assertEqual(result.returncode, 1, result.stderr)
+                self.assertEqual(self.contents(names), before)
+                self.nothing_is_beside()
+            self.assertEqual(self.bendy(*line, fail="link", cwd=self.folder).returncode, 0)
+            for name in names:
+                self.assertNotIn(self.contents(names)[name], (None, before[name]))
+            self.nothing_is_beside()
+
+    def test_an_interrupt_comes_before_all_outputs_are_replaced_or_after(self):
+        for line, names, before in self.together():
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+                status, _ = self.stopped(*line, fail="fsync", at=2, do=lambda process, n=number: process.send_signal(n))
+                self.assertEqual(status, -number)
+                self.assertEqual(self.contents(names), before)
+                self.nothing_is_beside()
+            status, _ = self.stopped(*line, fail="rename", at=2, do=lambda process: process.send_signal(signal.SIGINT))
+            self.assertEqual(status, -signal.SIGINT)
+            after = self.contents(names)
+            for name in names:
+                self.assertNotIn(after[name], (None, before[name]))
+            self.nothing_is_beside()
+
+    def test_an_interrupt_leaves_no_other_file(self):
+        for arguments, output, before in self.writers():
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGPIPE):
+                status, errors = self.stopped(*arguments, fail="write", do=lambda process, n=number: process.send_signal(n))
+                self.assertEqual(status, -number, errors)
+                self.expect_as_it_was(output, before)
+
+    def test_an_ignored_hangup_stays_ignored(self):
+        output = self.folder / "out.bendy"
+        signal.signal(signal.SIGHUP, signal.SIG_IGN)
+        self.addCleanup(signal.signal, signal.SIGHUP, signal.SIG_DFL)
+        status, errors = self.stopped(*WRITERS["convert"], output, fail="write", do=lambda process: process.send_signal(signal.SIGHUP))
+        self.assertEqual((status, errors), (0, ""))
+        self.assertTrue(output.exists())
+
+    def test_an_interrupted_batch_counts_all_that_it_has_written(self):
+        (self.folder / "in").mkdir()
+        for name in "abcd":
+            (self.folder / "in" / f"{name}.gltf").write_bytes((SOURCE / SEEDS / "rope.gltf").read_bytes())
+        # Stopped in the rename of the second output, which is finished.
+        for number in (signal.SIGINT, signal.SIGHUP):
+            status, errors = self.stopped("convert", "in", "-o", "out", "-j", "1", fail="rename", at=2,
+                                          do=lambda process, n=number: process.send_signal(n))
+            self.assertEqual(status, -number, errors)
+            written = sorted(path.name for path in (self.folder / "out").glob("*.bendy"))
+            self.assertIn(f"bendy: interrupted: {len(written)} of 4 files converted", errors)
+            self.assertGreaterEqual(len(written), 2)
+            self.assertEqual([path for path in (self.folder / "out").glob(".bendy-*")], [])
+            again = self.bendy("convert", "in", "-o", "out", cwd=self.folder).stdout.decode()
+            self.assertRegex(again, rf"up to date +{len(written)}\n")
+            shutil.rmtree(self.folder / "out")
+
+    def test_a_file_that_becomes_shorter_is_an_error_that_names_it(self):
+        name = "short\x9b \u202e.bendy"
+        file = self.folder / name
+        whole = (SOURCE / SEEDS / "rope.bendy").read_bytes()
+        other = SOURCE / SEEDS / "rope_lod.bendy"
+        for line in (("inspect", name), ("inspect", name, "--json"), ("validate", name), ("pose", name), ("dump", name), ("rig", name),
+                     ("diff", name, other), ("diff", name, other, "--tolerance", "1mm"), ("export", name, "-o", "out.glb"),
+                     ("edit", name, "-o", "out.bendy", "--strip", "clips")):
+            with self.subTest(line=line):
+                file.write_bytes(whole)
+                status, errors = self.stopped(*map(str, line), fail="map", do=lambda _: os.truncate(file, 0))
+                self.assertEqual(status, 2 if line[0] == "diff" else 1, errors)
+                self.assertEqual(errors.splitlines()[-1], "bendy: error: short\\u009b \\u202e.bendy: became shorter while it was read")
+                self.assertEqual([entry.name for entry in self.folder.iterdir()], [name])
+
+    def test_commands_that_work_for_long_have_their_file_in_memory(self):
+        file = self.folder / "m.bendy"
+        for line in (("render", "m.bendy", "-o", "m.png", "--size", "16x16"), ("bench", "m.bendy", "--rounds", "1")):
+            if line[0] == "render" and not HAS_VIEWER:
+                continue
+            file.write_bytes((SOURCE / SEEDS / "rope.bendy").read_bytes())
+            result = self.bendy(*line, fail="map", how="kill", cwd=self.folder)
+            # bench maps it, but only where it measures just that.
+            self.assertEqual(result.returncode, -signal.SIGKILL if line[0] == "bench" else 0, result.stderr)
+
+    def test_too_many_open_files_are_said(self):
+        for name in ("rope.gltf", "rope.bendy"):
+            (self.folder / name).write_bytes((SOURCE / SEEDS / name).read_bytes())
+        for line in (("inspect", "rope.bendy"), ("validate", "rope.bendy"), ("pose", "rope.bendy"), ("export", "rope.bendy", "-o", "x.glb"),
+                     ("edit", "rope.bendy", "-i", "--strip", "clips"), ("dump", "rope.bendy"), ("bench", "rope.bendy"),
+                     ("diff", "rope.bendy", "rope.bendy"), ("render", "rope.bendy", "-o", "x.png"), ("convert", "rope.gltf")):
+            with self.subTest(line=line):
+                if line[0] == "render" and not HAS_VIEWER:
+                    continue
+                result = self.bendy(*line, fail="read", cwd=self.folder)
+                self.assertEqual(result.returncode, 2 if line[0] == "diff" else 1)
+                self.assertRegex(result.stderr.decode(), r"^bendy: error: rope\.(bendy|gltf): .*Too many open files\n$")
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["rope.bendy", "rope.gltf"])
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "there is no /dev/full")
     def test_a_full_standard_output_is_an_error_of_every_command(self):

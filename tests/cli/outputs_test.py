@@ -622,5 +622,43 @@ class Assemble(OutputCase):
                          [line.split(": ", 1)[1] for line in lines[:-1]])
 
 
+class Modes(Case):
+    def test_a_file_that_is_replaced_keeps_its_mode(self):
+        self.addCleanup(os.umask, os.umask(0o022))
+        shutil.copy(self.convert("tentacle"), self.folder / "in.bendy")
+        for mode in (0o600, 0o640, 0o444, 0o4755, 0o666):
+            for name, line in (("in.bendy", ("edit", "in.bendy", "-i", "--rename-joint", "*=*", "-q")),
+                               ("out.json", ("dump", "in.bendy", "-o", "out.json")),
+                               ("out.gltf", ("export", "in.bendy", "-q", "-o", "out.gltf")),
+                               ("out.bin", ("export", "in.bendy", "-q", "-o", "out.gltf")),
+                               ("out.bendy", ("convert", "in.bendy", "-q", "-o", "out.bendy"))):
+                with self.subTest(mode=oct(mode), command=line[0]):
+                    self.done(*line)
+                    (self.folder / name).chmod(mode)
+                    self.done(*line)
+                    self.assertEqual(oct((self.folder / name).stat().st_mode & 0o7777), oct(mode))
+        self.done("dump", "in.bendy", "-o", "new.json")
+        self.assertEqual((self.folder / "new.json").stat().st_mode & 0o7777, 0o644)
+
+    def test_a_link_leads_to_the_same_file_with_the_same_mode(self):
+        (self.folder / "there").mkdir()
+        shutil.copy(self.convert("tentacle"), self.folder / "there" / "a.bendy")
+        (self.folder / "there" / "a.bendy").chmod(0o600)
+        (self.folder / "a.bendy").symlink_to("there/a.bendy")
+        self.done("edit", "a.bendy", "-i", "--strip", "clips", "-q")
+        self.assertTrue((self.folder / "a.bendy").is_symlink())
+        self.assertEqual((self.folder / "there" / "a.bendy").stat().st_mode & 0o7777, 0o600)
+        self.assertEqual([entry.name for entry in (self.folder / "there").iterdir()], ["a.bendy"])
+
+    @unittest.skipUnless(hasattr(os, "geteuid") and os.geteuid() == 0, "only root gives files away")
+    def test_a_file_that_is_replaced_keeps_its_owner(self):
+        shutil.copy(self.convert("tentacle"), self.folder / "in.bendy")
+        os.chown(self.folder / "in.bendy", 1234, 5678)
+        (self.folder / "in.bendy").chmod(0o640)
+        self.done("edit", "in.bendy", "-i", "--strip", "clips", "-q")
+        status = (self.folder / "in.bendy").stat()
+        self.assertEqual((status.st_uid, status.st_gid, status.st_mode & 0o7777), (1234, 5678, 0o640))
+
+
 if __name__ == "__main__":
     main()
