@@ -2,6 +2,7 @@
 #include "commands/model_options.h"
 #include "convert/batch.h"
 #include "convert/conversion.h"
+#include "convert/depfile.h"
 #include "files/input.h"
 #include "files/output.h"
 #include "inspect/summary.h"
@@ -15,6 +16,7 @@
 #include <bendy/runtime.h>
 
 #include <algorithm>
+#include <array>
 #include <iomanip>
 #include <memory>
 #include <ostream>
@@ -93,38 +95,18 @@ void print_summary(const ConvertArguments& arguments, Bytes bytes, bool with_byt
                                                         columns_of(stream), with_bytes_by_kind);
 }
 
-/// A file's name as Make reads it: before a space, or a #, every backslash is doubled and one more is put.
-std::string escaped(std::string_view name) {
-    std::string text;
-    std::size_t backslashes = 0;
-    for (const char c : name) {
-        if (c == ' ' || c == '\t' || c == '#') text += std::string(backslashes + 1, '\\');
-        if (c == '$') text += '$';
-        text += c;
-        backslashes = c == '\\' ? backslashes + 1 : 0;
+/// The sources that are there, as a rule for Make and Ninja.
+std::string depfile_of(const ConvertArguments& arguments, const converter::Report& report) {
+    std::vector<std::string> sources;
+    for (const converter::SourceFile& source : report.sources()) {
+        if (source.stamp.is_there) sources.push_back(source.file.generic_string());
     }
-    return text;
-}
-
-/// A rule for Make and Ninja: `output` depends on the sources that are there; no commands. A name with a line break
-/// cannot be written: the result is empty.
-std::string depfile_text(const std::filesystem::path& output, const std::vector<converter::SourceFile>& sources) {
-    const std::string target = output.string();
-    std::string text = escaped(target) + ':';
-    bool is_one_line = target.find('\n') == std::string::npos;
-    for (const converter::SourceFile& source : sources) {
-        if (!source.stamp.is_there) continue;
-        const std::string name = source.file.string();
-        is_one_line = is_one_line && name.find('\n') == std::string::npos;
-        text += " \\\n  " + escaped(name);
+    auto rule = depfile_text(arguments.output.generic_string(), sources);
+    if (!rule) {
+        fail(output_name(arguments.depfile),
+             "cannot hold the file name " + quoted_for_shell(rule.error().name) + ": Make or Ninja reads it otherwise");
     }
-    return is_one_line ? text + '\n' : std::string();
-}
-
-void write_depfile(const ConvertArguments& arguments, const converter::Report& report, const Outputs& outputs) {
-    const std::string text = depfile_text(arguments.output, report.sources());
-    if (text.empty()) fail(output_name(arguments.depfile), "cannot hold a file name with a line break");
-    outputs.write(arguments.depfile, text);
+    return *std::move(rule);
 }
 
 /// \returns the bytes that it has written
@@ -141,8 +123,13 @@ std::vector<std::byte> convert_and_write(const ConvertArguments& arguments, Name
     auto bytes = convert_with_progress(arguments, options_of(arguments), report);
     if (!bytes) fail(file_of(bytes.error(), input), describe(bytes.error()));
     for (const converter::SourceFile& source : report.sources()) outputs.reads(source.file);
-    outputs.write(arguments.output, *bytes);
-    if (!arguments.depfile.empty()) write_depfile(arguments, report, outputs);
+    if (arguments.depfile.empty()) {
+        outputs.write(arguments.output, *bytes);
+    } else {
+        const std::string rule = depfile_of(arguments, report);
+        const std::array<FileContents, 2> files{{{arguments.output, *bytes}, {arguments.depfile, as_byte_span(rule)}}};
+        outputs.write(files);
+    }
     return *std::move(bytes);
 }
 
@@ -180,13 +167,13 @@ void check_names(const ConvertArguments& arguments, bool is_batch) {
     if (!arguments.depfile.empty() && is_dash(arguments.output))
         throw CLI::ValidationError("--depfile", "goes with an output that has a name");
     if (const auto format = format_named_by(arguments.depfile); !format.empty()) {
-        throw CLI::ValidationError("--depfile", printable(arguments.depfile.string()) + " would be " +
+        throw CLI::ValidationError("--depfile", escaped(arguments.depfile.string()) + " would be " +
                                                     std::string(format) + ", not a rule for Make");
     }
     std::error_code ignored;
     if (const auto format = format_named_by(arguments.output);
         is_batch && !format.empty() && !std::filesystem::is_directory(arguments.output, ignored)) {
-        const std::string name = printable(arguments.output.string());
+        const std::string name = escaped(arguments.output.string());
         throw CLI::ValidationError("--output", "several files go to a folder, and " + name + " would be " +
                                                    std::string(format) + "; " + name + "/ is a folder");
     }

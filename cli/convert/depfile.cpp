@@ -1,0 +1,82 @@
+#include "convert/depfile.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+
+namespace bendy::cli {
+namespace {
+
+constexpr bool kHasDrives = std::is_same_v<std::filesystem::path::value_type, wchar_t>;
+
+bool is_letter_or_digit(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           static_cast<unsigned char>(c) >= 0x80;
+}
+
+/// Letters that stand for themselves in Make and in Ninja. '[', '*' and '?' are patterns in Make, '=' makes a variable
+/// of a name, and Ninja ends a name at quotes, '&', '<', '>', '^', '`', ';' and '|'.
+bool is_plain(char c) {
+    return is_letter_or_digit(c) || std::string_view("_-./+,@{}()!~]%").find(c) != std::string_view::npos;
+}
+
+/// Before a space or '#', every backslash is doubled and one more is put; elsewhere backslashes stand for themselves,
+/// where what follows is a letter that they change nothing of.
+bool add_backslashes(std::string& text, std::size_t count, char following) {
+    if (count == 0) return true;
+    const bool is_doubled = following == ' ' || following == '#';
+    text.append(is_doubled ? 2 * count : count, '\\');
+    return is_doubled || is_letter_or_digit(following) || following == '.' || following == '_' || following == '-';
+}
+
+/// A name as both read it; nothing if there is no such writing.
+std::optional<std::string> as_in_rule(std::string_view name) {
+    std::string text;
+    std::size_t backslashes = 0;
+    for (std::size_t at = 0; at < name.size(); ++at) {
+        const char c = name[at];
+        if (c == '\\') {
+            ++backslashes;
+            continue;
+        }
+        if (!add_backslashes(text, backslashes, c)) return std::nullopt;
+        backslashes = 0;
+        const bool is_last = at + 1 == name.size();
+        if (kHasDrives && c == ':' && at == 1) {  // C:/fox.glb
+            text += c;
+        } else if (c == '$') {
+            text += "$$";
+        } else if (c == '#' || ((c == ' ' || c == ':') && !is_last)) {
+            text += '\\';
+            text += c;
+        } else if (is_plain(c)) {
+            text += c;
+        } else {
+            return std::nullopt;
+        }
+    }
+    if (name.empty() || backslashes != 0) return std::nullopt;
+    // Make reads "~a", and "./~a" too, as somebody's home folder, and "a(b)" as a member of an archive.
+    if (name.starts_with('~') || name.starts_with("./~")) return std::nullopt;
+    if (name.ends_with(')') && name.find('(') != std::string_view::npos) return std::nullopt;
+    return text;
+}
+
+}  // namespace
+
+Result<std::string, UnwritableName> depfile_text(const std::string& target, const std::vector<std::string>& sources) {
+    const auto written_target = as_in_rule(target);
+    // In a target, Make takes % for a pattern.
+    if (!written_target || target.find('%') != std::string::npos) return UnwritableName{target};
+    std::string text = *written_target + ':';
+    for (const std::string& source : sources) {
+        const auto written = as_in_rule(source);
+        if (!written) return UnwritableName{source};
+        text += " \\\n  " + *written;
+    }
+    return text + '\n';
+}
+
+}  // namespace bendy::cli
