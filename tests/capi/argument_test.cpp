@@ -280,6 +280,24 @@ TEST(CFiles, LongMessagesAreCutBetweenCharacters) {
     }
 }
 
+TEST(CFiles, MayBeReadIntoMemory) {
+    const auto file = std::filesystem::path(testing::TempDir()) / "bendy_capi_copied.bendy";
+    const Buffer bytes = sample_file();
+    ASSERT_TRUE(write_file(file, bytes).has_value());
+    const std::u8string name = file.u8string();
+    bendy_open_options options = BENDY_OPEN_OPTIONS_INIT;
+    options.copied = 1;
+    bendy_error error = BENDY_ERROR_INIT;
+    const ModelHandle model(bendy_open(reinterpret_cast<const char*>(name.c_str()), &options, &error));
+    ASSERT_NE(model, nullptr) << error.message;
+    std::filesystem::resize_file(file, 0);  // would end the program by SIGBUS if it were mapped
+    EXPECT_EQ(bendy_check_sums(model.get(), &error), BENDY_OK) << error.message;
+    std::filesystem::remove(file);
+    // A program that was compiled before there was the field.
+    options.size = offsetof(bendy_open_options, copied);
+    EXPECT_NE(ModelHandle(bendy_open_copy(bytes.data(), bytes.size(), &options, &error)), nullptr);
+}
+
 TEST(CFiles, NamesAreUtf8OnEverySystem) {
     const auto folder = std::filesystem::path(testing::TempDir());
     const std::filesystem::path file = folder / u8"bendy_capi_\u2764.bendy";

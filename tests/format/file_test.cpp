@@ -66,6 +66,50 @@ TEST_F(MappedFileTest, CanBeMoved) {
     EXPECT_EQ(as_text(empty.bytes()), "two");
 }
 
+TEST_F(MappedFileTest, ReadsIntoMemory) {
+    put(in("a"), "text");
+    put(in("empty"), "");
+    const auto file = MappedFile::read(in("a"));
+    ASSERT_TRUE(file.has_value());
+    put(in("a"), "");  // not on Windows if it were mapped
+    EXPECT_EQ(as_text(file->bytes()), "text");
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(file->bytes().data()) % 4096, 0u);
+    EXPECT_EQ(mapped_file_at(file->bytes().data()), nullptr);
+    const auto empty = MappedFile::read(in("empty"));
+    ASSERT_TRUE(empty.has_value());
+    EXPECT_TRUE(empty->bytes().empty());
+    const auto none = MappedFile::read(in("none"));
+    ASSERT_FALSE(none.has_value());
+    expect_error(none.error(), ErrorCode::kCannotOpen, ENOENT);
+    const auto folder = MappedFile::read(folder_);
+    ASSERT_FALSE(folder.has_value());
+    expect_error(folder.error(), ErrorCode::kCannotRead, EISDIR);
+}
+
+TEST_F(WriteFileTest, WritesSeveralFiles) {
+    put(in("a"), "old");
+    const std::vector<FileContents> files{{in("a"), as_byte_span("one")}, {in("b"), as_byte_span("two")}};
+    ASSERT_TRUE(write_files(files).has_value());
+    EXPECT_EQ(content(in("a")), "one");
+    EXPECT_EQ(content(in("b")), "two");
+    EXPECT_EQ(names(), (std::vector<std::string>{"a", "b"}));
+    EXPECT_TRUE(write_files({}).has_value());
+}
+
+TEST_F(WriteFileTest, WritesNoneOfSeveralFilesIfOneCannotBeWritten) {
+    put(in("a"), "old");
+    fs::create_directory(in("folder"));
+    for (const fs::path& wrong : {in("folder"), in("none") / "c"}) {
+        const std::vector<FileContents> files{
+            {in("a"), as_byte_span("one")}, {in("b"), as_byte_span("two")}, {wrong, as_byte_span("three")}};
+        const auto written = write_files(files);
+        ASSERT_FALSE(written.has_value());
+        EXPECT_EQ(written.error().file, 2u);
+        EXPECT_EQ(content(in("a")), "old");
+        EXPECT_EQ(names(), (std::vector<std::string>{"a", "folder"}));
+    }
+}
+
 TEST_F(WriteFileTest, WritesANewFileAndNothingElse) {
     ASSERT_TRUE(write_file(in("a"), as_byte_span("text")).has_value());
     EXPECT_EQ(content(in("a")), "text");

@@ -90,6 +90,18 @@ def test_use_after_close(mannequin):
     model.close()
 
 
+def test_a_file_may_be_read_into_memory(mannequin, tmp_path):
+    path = tmp_path / "a.bendy"
+    path.write_bytes(mannequin.read_bytes())
+    assert bendy.open(path).source.is_mapped
+    model = bendy.open(path, copied=True)
+    assert not model.source.is_mapped
+    path.write_bytes(b"")  # would end the program if it were mapped
+    model.check_sums()
+    with pytest.raises(FileNotFoundError):
+        bendy.open(tmp_path / "none.bendy", copied=True)
+
+
 def test_compact_files_are_decoded(compact, model):
     other = bendy.open(compact)
     mesh = other.meshes[0]

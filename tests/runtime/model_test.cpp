@@ -336,6 +336,21 @@ TEST(Model, OneOfSeveralObjects) {
     }
 }
 
+TEST(Model, MayHaveItsFileInMemory) {
+    const test::TemporaryFolder folder;
+    const std::filesystem::path path = folder.path() / "fox.bendy";
+    const Buffer bytes = test::sample_file();
+    ASSERT_TRUE(write_file(path, bytes).has_value());
+    OpenOptions options;
+    options.storage = Storage::copied;
+    const auto model = Model::open(path, options);
+    ASSERT_TRUE(model.has_value());
+    std::filesystem::resize_file(path, 0);  // would end the program by SIGBUS if it were mapped
+    EXPECT_EQ(model->name(), "fox");
+    EXPECT_TRUE(model->check_sums().has_value());
+    EXPECT_FALSE(Model::open(path, options).has_value());
+}
+
 TEST(Model, AFileWithoutObjectsIsNoModel) {
     test::Node file = test::sample();
     test::remove(file, "OBJE");
