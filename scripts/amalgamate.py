@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 # Also in the header, beside the runtime's own: errors in words.
 FURTHER_HEADERS = ["bendy/format/diagnostics.h"]
-WRITES_FILES = re.compile(r"src/\w+_writer\.cpp")
+WRITES_FILES = re.compile(r"src/(\w+_writer|write_files.*)\.cpp")
 # In the name of a source that there is one of for each kind of system.
 SYSTEM = "${BENDY_SYSTEM}"
 SYSTEMS = {"posix": "!defined(_WIN32)", "windows": "defined(_WIN32)"}
@@ -99,6 +99,8 @@ def make_source(joiner, folder, name, instructions, condition=None):
     lines = []
     for header in own_headers:  # before any condition: later files count on them
         found = joiner.find(header, file)
+        if header.endswith(tuple(f"_{system}.h" for system in SYSTEMS)):
+            continue
         if found is not None and "#pragma once\n" in found.read_text(encoding="utf-8"):
             lines += joiner.expand(found)
     body = joiner.expand(file)
