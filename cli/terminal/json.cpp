@@ -27,8 +27,9 @@ std::string without_controls(std::string json) {
         } else if (shown.starts_with("\\U")) {  // JSON has UTF-16
             const unsigned long offset = std::stoul(std::string(shown.substr(2)), nullptr, 16) - 0x10000;
             std::array<char, 13> pair{};
-            std::snprintf(pair.data(), pair.size(), "\\u%04lx\\u%04lx", 0xd800 + (offset >> 10),
-                          0xdc00 + (offset & 0x3ff));
+            std::snprintf(pair.data(), pair.size(), "\\u%04hx\\u%04hx",
+                          static_cast<unsigned short>(0xd800 + (offset >> 10)),
+                          static_cast<unsigned short>(0xdc00 + (offset & 0x3ff)));
             out += pair.data();
         } else {
             out += shown;

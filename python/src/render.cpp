@@ -79,7 +79,7 @@ py::array render_model(const py::object& subject, const py::object& clip, const 
             problem = error.what();
         }
     }
-    if (!problem.empty()) raise("RenderError", problem, "RENDER", file);
+    if (!problem.empty()) raise("RenderError", problem, "RENDER", character->source->file());
     for (const std::string& what : warnings) {
         if (PyErr_WarnEx(PyExc_UserWarning, what.c_str(), 2) != 0) throw py::error_already_set();
     }

@@ -155,7 +155,7 @@ protected:
             EXPECT_TRUE(sample(pose, clip, clip->start + share * (clip->end - clip->start)));
         }
         const Box box = bounding_box(model, clip);
-        Renderer renderer(model, {}, [](const std::string& what) { ADD_FAILURE() << what; });
+        Renderer renderer(model, ReadableFolders(), [](const std::string& what) { ADD_FAILURE() << what; });
         for (const CameraOptions& options : {CameraOptions{0.6f, 0.2f, 1.2f}, CameraOptions{-2.2f, -0.5f, 1.2f}}) {
             Camera camera;
             camera.fit(box, options, 1.0f);
@@ -240,7 +240,7 @@ TEST_F(VertexPositions, SevenInfluencesAndTwoThousandJoints) {
 
     Pose pose(*model);
     const Box box = bounding_box(*model, nullptr);
-    Renderer renderer(*model, {}, [](const std::string& what) { ADD_FAILURE() << what; });
+    Renderer renderer(*model, ReadableFolders(), [](const std::string& what) { ADD_FAILURE() << what; });
     Camera camera;
     camera.fit(box, {0.6f, 0.2f, 1.2f}, 1.0f);
     expect_same_places(*model, pose, camera, renderer);

@@ -24,11 +24,11 @@ std::filesystem::path NamedFiles::find(const std::string& uri, const std::string
 }
 
 std::span<const std::byte> NamedFiles::read(const std::string& uri, const std::string& place, std::uint64_t limit) {
-    return read(find(uri, place), place, limit);
+    return read_found(find(uri, place), place, limit);
 }
 
-std::span<const std::byte> NamedFiles::read(const std::filesystem::path& file, const std::string& place,
-                                            std::uint64_t limit) {
+std::span<const std::byte> NamedFiles::read_found(const std::filesystem::path& file, const std::string& place,
+                                                  std::uint64_t limit) {
     report_.add_source(file);
     std::error_code error;
     const std::filesystem::path real = std::filesystem::canonical(file, error);
@@ -64,7 +64,7 @@ bool NamedFiles::exists(const std::string& uri, const std::string& place) {
 void NamedFiles::embed(Image& image, const std::string& place) {
     try {
         const std::filesystem::path file = find(image.uri, place);
-        const std::span<const std::byte> bytes = read(file, place, UINT64_MAX);
+        const std::span<const std::byte> bytes = read_found(file, place, UINT64_MAX);
         budget_.take(bytes.size(), 1, place);
         image.bytes.assign(bytes.begin(), bytes.end());
         image.uri.clear();

@@ -41,7 +41,8 @@ private:
     };
 
     std::filesystem::path find(const std::string& uri, const std::string& place) const;
-    std::span<const std::byte> read(const std::filesystem::path& file, const std::string& place, std::uint64_t limit);
+    std::span<const std::byte> read_found(const std::filesystem::path& file, const std::string& place,
+                                          std::uint64_t limit);
 
     ReadableFolders folders_;
     Budget& budget_;

@@ -1,4 +1,5 @@
 #include "build_gltf.h"
+#include "source_folder.h"
 
 #include <draco/compression/encode.h>
 #include <draco/mesh/triangle_soup_mesh_builder.h>
@@ -135,8 +136,7 @@ TEST(GltfDraco, CountsAreHeldAgainstTheData) {
 
 /// 587 bytes that ask for more than a thousand million orientations of texture coordinates: Draco 1.5.5 decodes each.
 TEST(GltfDraco, CountsBeyondTheMeshAreRefused) {
-    const Import import =
-        import_file(std::filesystem::path(BENDY_SOURCE_DIR) / "tests/converter/gltf/draco_orientations.gltf");
+    const Import import = import_file(source_folder() / "tests/converter/gltf/draco_orientations.gltf");
     EXPECT_EQ(import.message(), "Draco: a count goes beyond what the data describes");
 }
 
