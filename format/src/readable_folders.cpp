@@ -68,7 +68,9 @@ fs::path real_path(const fs::path& path) {
     std::error_code error;
     const fs::path whole = fs::absolute(path, error);
     if (error) return {};
+    // Twice: what does not exist is only tidied up, which may leave the name of a link, as for "none/../link".
     fs::path real = fs::weakly_canonical(whole, error);
+    if (!error) real = fs::weakly_canonical(real, error);
     if (error) return {};
     return real.has_filename() ? real : real.parent_path();
 }

@@ -449,7 +449,7 @@ class StandardStreams(OutputCase):
             data = (self.folder / name).read_bytes()
             shutil.copy(self.folder / name, self.folder / ("standard input" + Path(name).suffix))  # MD2 has no names
             self.done("convert", "-q", "standard input" + Path(name).suffix, "-o", "named.bendy")
-            self.done("convert", "-q", "-", "-o", "piped.bendy", input=data)
+            self.done("convert", "-q", "-", "--root", ".", "-o", "piped.bendy", input=data)
             self.assertEqual((self.folder / "piped.bendy").read_bytes(), (self.folder / "named.bendy").read_bytes())
         self.done("edit", self.made["bendy"], "--merge", "-", "--same-name", "number", "-o", "merged.bendy",
                   input=self.made["glb"].read_bytes())
