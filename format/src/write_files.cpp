@@ -84,12 +84,17 @@ Result<void, WriteFailure> replace_all(std::vector<StagedFile>& files) {
     if (!now.may_begin()) return WriteFailure{0, cannot_write(EINTR)};
     const auto together =
         std::count_if(files.begin(), files.end(), [](const StagedFile& file) { return file.beside != nullptr; });
+    // Before the first rename, because getting memory may fail.
+    for (StagedFile& file : files) {
+        if (file.beside && together > 1) file.kept = name_beside(file.target);
+    }
     for (std::size_t k = 0; k < files.size(); ++k) {
         StagedFile& file = files[k];
         if (!file.beside) continue;
         file.is_replaced = (together == 1 || keep_old(file)) && replace(file.target, file.beside->path());
         if (file.is_replaced) continue;
         const Error error = last_error();
+        for (std::size_t later = k + 1; later < files.size(); ++later) files[later].kept.reset();
         for (std::size_t done = k + 1; done > 0; --done) put_back(files[done - 1]);
         return WriteFailure{k, error};
     }
@@ -108,6 +113,10 @@ TemporaryName::~TemporaryName() {
     if (!slot_->name.compare_exchange_strong(name, nullptr)) static_cast<void>(path_.release());
 }
 
+StagedFile::~StagedFile() {
+    if (beside && !is_replaced) remove_at_once(beside->path().c_str());
+}
+
 std::unique_ptr<TemporaryName> name_beside(const std::filesystem::path& target) {
     static std::atomic<unsigned> counter{0};
     const std::string name = ".bendy-" + std::to_string(process_number()) + '-' + std::to_string(counter++);
@@ -120,11 +129,7 @@ Result<void, WriteFailure> write_files(std::span<const FileContents> files) {
     for (std::size_t k = 0; written && k < files.size(); ++k) {
         if (const auto one = stage(files[k], staged[k]); !one) written = WriteFailure{k, one.error()};
     }
-    if (written) written = replace_all(staged);
-    if (!written) {
-        for (StagedFile& file : staged) remove(file.beside);
-    }
-    return written;
+    return written ? replace_all(staged) : written;
 }
 
 Result<void> write_file(const std::filesystem::path& path, Bytes bytes) {

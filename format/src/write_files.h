@@ -38,6 +38,14 @@ struct StagedFile {
     std::unique_ptr<TemporaryName> beside;  ///< the new bytes; null: they went directly to a pipe or a device
     std::unique_ptr<TemporaryName> kept;    ///< the old file, while others are replaced; null: there was none
     bool is_replaced = false;
+
+    StagedFile() = default;
+    StagedFile(const StagedFile&) = delete;
+    StagedFile& operator=(const StagedFile&) = delete;
+    StagedFile(StagedFile&&) = delete;
+    StagedFile& operator=(StagedFile&&) = delete;
+    /// Removes the new bytes if they are still beside the target.
+    ~StagedFile();
 };
 
 /// Writes a new file beside the one to be written, flushed to disk, with the owner and the mode that it shall have. On

@@ -93,10 +93,7 @@ Result<void> stage(const FileContents& contents, StagedFile& staged) {
 }
 
 bool keep_old(StagedFile& staged) {
-    do {
-        staged.kept = name_beside(staged.target);
-        if (::link(staged.target.c_str(), staged.kept->path().c_str()) == 0) return true;
-    } while (errno == EEXIST);
+    if (::link(staged.target.c_str(), staged.kept->path().c_str()) == 0) return true;
     // Some file systems have no hard links. A folder must not be moved: it is refused when it is replaced.
     struct stat status {};
     const bool is_file = errno != ENOENT && ::lstat(staged.target.c_str(), &status) == 0 && S_ISREG(status.st_mode);

@@ -76,7 +76,6 @@ Result<void> stage(const FileContents& contents, StagedFile& staged) {
 }
 
 bool keep_old(StagedFile& staged) {
-    staged.kept = name_beside(staged.target);
     if (::CreateHardLinkW(staged.kept->path().c_str(), staged.target.c_str(), nullptr) != 0) return true;
     if (::GetLastError() != ERROR_FILE_NOT_FOUND &&  // some file systems have no hard links
         ::MoveFileExW(staged.target.c_str(), staged.kept->path().c_str(), MOVEFILE_WRITE_THROUGH) != 0)
