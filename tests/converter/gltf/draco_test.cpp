@@ -124,14 +124,14 @@ TEST(GltfDraco, FaultsNameThePrimitive) {
 }
 
 TEST(GltfDraco, CountsAreHeldAgainstTheData) {
-    // Header, edgebreaker, traversal, then 2^31 vertices and 2^31 faces.
+    // Header, edgebreaker, traversal, then 2^31 vertices, 2^31 faces, and no attribute with seams.
     Bytes hostile =
         bytes_of(std::string_view("DRACO\x02\x02\x01\x01\x00\x00\x00"
-                                  "\x80\x80\x80\x80\x08\x80\x80\x80\x80\x08",
-                                  22));
+                                  "\x80\x80\x80\x80\x08\x80\x80\x80\x80\x08\x00",
+                                  23));
     Gltf gltf = make_draco();
     gltf.primitive()["extensions"]["KHR_draco_mesh_compression"]["bufferView"] = gltf.add_view(hostile);
-    EXPECT_EQ(gltf.import().message(), "Draco: 22 bytes cannot hold 2147483648 faces and 2147483648 vertices");
+    EXPECT_EQ(gltf.import().message(), "Draco: 23 bytes cannot hold 2147483648 faces and 2147483648 vertices");
 }
 
 /// 587 bytes that ask for more than a thousand million orientations of texture coordinates: Draco 1.5.5 decodes each.
