@@ -44,14 +44,13 @@ std::optional<std::string> as_in_rule(std::string_view name) {
         if (!add_backslashes(text, backslashes, c)) return std::nullopt;
         backslashes = 0;
         const bool is_last = at + 1 == name.size();
-        if (kHasDrives && c == ':' && at == 1) {  // C:/fox.glb
+        const bool is_drive = kHasDrives && c == ':' && at == 1;  // C:/fox.glb
+        if (is_drive || is_plain(c)) {
             text += c;
         } else if (c == '$') {
             text += "$$";
         } else if (c == '#' || ((c == ' ' || c == ':') && !is_last)) {
             text += '\\';
-            text += c;
-        } else if (is_plain(c)) {
             text += c;
         } else {
             return std::nullopt;

@@ -112,7 +112,7 @@ std::string printable(std::string_view text) {
 }
 
 std::string quoted_for_shell(std::string_view word) {
-    const std::string name = escaped(word);
+    std::string name = escaped(word);
     constexpr std::string_view kPlain = "._-/+:,@%";
     const bool is_plain = !name.empty() && std::all_of(name.begin(), name.end(), [&](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -238,9 +238,10 @@ void print_proposals(const converter::Report& report) {
 }
 
 void print_fault_lines(std::ostream& out, const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
-    for (const Error& fault : faults.list())
+    for (const Error& fault : faults.list()) {
         out << shown_name(file) << ": " << code_name(fault.code) << ": " << printable(describe_with_place(fault, bytes))
             << '\n';
+    }
     if (faults.left_out() != 0) out << shown_name(file) << ": " << grouped(faults.left_out()) << " more faults\n";
 }
 
