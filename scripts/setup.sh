@@ -72,6 +72,7 @@ if wants static all; then
 fi
 if wants web test all; then
     need emcc emscripten
+    need wasm-opt binaryen
     need node nodejs
     need npm npm
 fi

@@ -19,7 +19,7 @@ export function checkIndex(index: number, count: number, kind: string): number {
 
 /** Returns the place of an item in the list that it is an item of. Throws BAD_ARGUMENT for one of another model, and for copies. */
 export function indexOwn<T extends { readonly number: number }>(list: readonly T[], item: T, kind: string): number {
-  const index = list[item?.number] === item ? item.number : list.indexOf(item);
+  const index = item != null && list[item.number] === item ? item.number : list.indexOf(item);
   if (index >= 0) return index;
   throw new BendyError('bad_argument', `the ${kind} belongs to another model`);
 }

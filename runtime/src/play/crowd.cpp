@@ -76,10 +76,6 @@ Result<void, CallError> Crowd::play(std::span<const CrowdMember> members, std::s
 
 Result<void, CallError> Crowd::write(const CrowdMember& member, std::size_t worker) {
     Pose& pose = poses_[worker];
-    if (pose.model() != model_) {  // the caller has put another one there
-        pose = Pose(model_);
-        return CallError::other_model;
-    }
     if (member.lod != nullptr && member.lod->model() != model_) return CallError::other_model;
     Result<void, CallError> result;
     const bool is_skinned = is_wanted(member.out);

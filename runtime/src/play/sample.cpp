@@ -306,8 +306,8 @@ Result<void, CallError> sample(Pose& pose, const Clip* clip, float seconds) {
         return {};
     }
     pose.set_rest();
-    if (const auto checked = model.check(clip); !checked) return checked;
-    return CallError::not_finite;
+    if (clip == nullptr) return CallError::missing;
+    return number < model.object.clips.size() ? CallError::not_finite : CallError::other_model;
 }
 
 }  // namespace bendy

@@ -61,9 +61,11 @@ public:
     template <class PoseMember>
     [[nodiscard]] Result<void, CallError> play(std::span<const CrowdMember> members, std::size_t worker,
                                                const PoseMember& pose_member) {
-        return play_each(members, worker, [&](const CrowdMember& member, Pose& pose) {
+        return play_each(members, worker, [&](const CrowdMember& member, Pose& pose) -> Result<void, CallError> {
             pose_member(member, pose);
-            return Result<void, CallError>();
+            if (pose.model() == model_) return {};
+            pose = Pose(model_);  // the caller has put another one there
+            return CallError::other_model;
         });
     }
 
