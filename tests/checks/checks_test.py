@@ -64,6 +64,12 @@ class Steps(unittest.TestCase):
         kinds = {faults.read_header(patch)["Kind"] for patch in (ROOT / "tests/faults").glob("*.patch")}
         self.assertEqual(kinds, set(faults.steps_by_kind()))
 
+    def test_every_patch_applies(self):
+        for patch in sorted((ROOT / "tests/faults").glob("*.patch")):
+            with self.subTest(patch=patch.name):
+                done = subprocess.run(["git", "apply", "--check", patch], cwd=ROOT, capture_output=True, text=True, check=False)
+                self.assertEqual(done.stderr, "")
+
 
 class ChangedSources(unittest.TestCase):
     """In a repository of its own."""
