@@ -31,7 +31,7 @@ bool add_backslashes(std::string& text, std::size_t count, char following) {
     return is_doubled || is_letter_or_digit(following) || following == '.' || following == '_' || following == '-';
 }
 
-/// A name as both read it; nothing if there is no such writing.
+/// Writes a name so that both read it as it is; nothing if that cannot be done.
 std::optional<std::string> as_in_rule(std::string_view name) {
     std::string text;
     std::size_t backslashes = 0;

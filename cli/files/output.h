@@ -65,7 +65,7 @@ public:
     /// since.
     void write(std::span<const FileContents> files) const;
     void write(const std::filesystem::path& output, Bytes bytes) const;
-    /// Text that goes to a terminal has what is no letter escaped.
+    /// Escapes control characters in text that goes to a terminal.
     void write(const std::filesystem::path& output, std::string_view text) const;
 
 private:

@@ -1,13 +1,13 @@
 #pragma once
 
-// What happens when the program is ended from outside, or a file becomes shorter while it is read.
+// Handles signals: requests to end the program, and a mapped file that becomes shorter.
 namespace bendy::cli {
 
 /// From now on, a signal that ends the program first removes the files that are being written beside outputs, and
 /// reading a mapped file past its new end is an error that names the file. To be called once, at the start.
 void watch_signals();
 
-/// What the program exits with after such an error; 1 if this was not called.
+/// Sets the exit status after such an error, which is 1 by default.
 void set_status_of_failures(int status);
 
 /// While it lives, the first request to end the program (INT, TERM, HUP) is only noted; a second one ends it at once.

@@ -47,7 +47,7 @@ double keys_of(const Clip& clip) {
     return static_cast<double>(std::unique(times.begin(), times.end()) - times.begin());
 }
 
-/// What one pose in a clip costs: joints, tracks, and the vertices that targets may move.
+/// The cost of one pose in a clip: joints, tracks, and the vertices that targets may move.
 double cost_of(const Scene& scene, const Clip& clip) {
     const double cost = static_cast<double>(std::max({scene.joints.size(), clip.tracks.size(), std::size_t{1}}));
     const bool has_weights =

@@ -164,6 +164,9 @@ def parse(arguments):
         parser.error("all goes with no other step")
     if (options.since or options.again) and options.steps != ["all"]:
         parser.error("--since and --again go with all")
+    if options.since and subprocess.run(["git", "rev-parse", "--verify", "--quiet", f"{options.since}^{{commit}}"], cwd=ROOT,
+                                        stdout=subprocess.DEVNULL, check=False).returncode != 0:
+        parser.error(f"--since {options.since}: there is no such revision")
     return options, ctest_options
 
 

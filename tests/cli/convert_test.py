@@ -298,7 +298,7 @@ class OtherFiles(Case):
     def test_the_root_allows_more(self):
         for uri in self.outside()[:-2]:
             result = self.bendy("convert", self.write(uri), "-o", "m.bendy", "--root", ".")
-            self.assertIn(b"embedded file is no image of a known kind: ", result.stderr)
+            self.assertIn(b"embedded file is not an image of a known kind: ", result.stderr)
             self.assertIn(b"A KEY", (self.folder / "m.bendy").read_bytes())
             self.done("convert", self.write(uri, "buffers"), "-o", "m.bendy", "-q", "--root", self.folder)
             self.done("pose", "in/m.gltf", "--root", ".")

@@ -18,7 +18,7 @@ namespace {
 
 using Scheme = draco::PredictionSchemeTypedDecoderInterface<std::int32_t>;
 
-/// What the parts of a decoder share.
+/// Limits that the parts of a decoder share.
 struct Bounds {
     std::uint64_t values = 0;  ///< of all attributes, at most
     std::int64_t corners = 0;  ///< of the mesh

@@ -70,7 +70,7 @@ void NamedFiles::embed(Image& image, const std::string& place) {
         image.uri.clear();
         const std::string kind = media_type_of(bytes);
         if (!is_image(bytes))
-            report_.warn("embedded file is no image of a known kind: " + quote(file.filename().string()), place);
+            report_.warn("embedded file is not an image of a known kind: " + quote(file.filename().string()), place);
         report_.add_embedded({file, bytes.size(), kind});
     } catch (const Failure& failure) {
         report_.warn("image could not be read (" + failure.error.message + ')', place);

@@ -154,7 +154,7 @@ TEST(GltfMaterial, EmbeddedFilesThatAreNoImagesAreNamed) {
     write_file("notes.txt", bytes_of("a key that nobody should see"));
     const Import import = gltf.import();
     EXPECT_FALSE(import->images.at(0).bytes.empty());
-    EXPECT_EQ(import.warned("embedded file is no image of a known kind: 'notes.txt'"), 1u);
+    EXPECT_EQ(import.warned("embedded file is not an image of a known kind: 'notes.txt'"), 1u);
 }
 
 TEST(GltfMaterial, OneFileForAThousandImagesIsBounded) {
