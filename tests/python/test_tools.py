@@ -47,7 +47,7 @@ def test_files_outside_the_sources_folder(tmp_path):
             bendy.open(refused)
     made = bendy.convert(source, root=tmp_path)
     assert [os.path.basename(one["file"]) for one in made.report["embedded"]] == ["secret"]
-    assert any("no image" in warning["message"] for warning in made.warnings)
+    assert any("not an image" in warning["message"] for warning in made.warnings)
     bendy.open(source, root=str(tmp_path))
     bendy.convert(text.encode(), root=tmp_path, name=str(source))
 
