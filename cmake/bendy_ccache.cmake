@@ -1,17 +1,12 @@
 # Where ccache is installed, it compiles: what any clone of the project has compiled with the same flags is taken from its cache.
 # Paths are told to it as relative ones. It keys by what the compiler says that it has read (CCACHE_DEPEND), so that a miss costs no
-# second run of the preprocessor; precompiled headers need the rest. A build without it is the same.
+# second run of the preprocessor. A build without it is the same.
 if(NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED ENV{CMAKE_CXX_COMPILER_LAUNCHER} AND NOT MSVC)
   find_program(BENDY_CCACHE ccache)
   if(BENDY_CCACHE)
     set(launcher ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 CCACHE_DEPEND=1
-      CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${BENDY_CCACHE})
+      CCACHE_SLOPPINESS=time_macros,include_file_mtime,include_file_ctime ${BENDY_CCACHE})
     set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
     set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
-    if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-      add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)  # else ccache gives up where there is a precompiled header
-    elseif(CMAKE_CXX_COMPILER_ID MATCHES Clang)
-      add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-Xclang -fno-pch-timestamp>")  # else each precompiled header is another one
-    endif()
   endif()
 endif()

@@ -75,7 +75,6 @@ function(bendy_private_options target)
   else()
     bendy_gnu_options(${target})
   endif()
-  bendy_precompile(${target} <algorithm> <array> <cmath> <filesystem> <functional> <map> <optional> <span> <string> <vector>)
   if(BENDY_UNITY)
     bendy_batches(${target})
   endif()
@@ -102,8 +101,9 @@ endfunction()
 
 # Compiles sources of one folder sixteen at a time: docs/decisions/0037. A file that is added changes the batches of its folder only.
 # Not CMake's own batches: those name sources by absolute paths, so that a compiler cache knows them in one clone only. Written when
-# the folder's CMakeLists.txt has ended, and with it the list of sources and their properties. BENDY_ALONE keeps a source out: one
-# with flags of its own, or one that some of its targets batch and others compile alone. BENDY_ONE_BY_ONE keeps out a target's.
+# the folder's CMakeLists.txt has ended, and with it the list of sources and their properties. A source with
+# COMPILE_OPTIONS of its own stays out, and one with BENDY_ALONE, such as one that other targets compile alone. BENDY_ONE_BY_ONE
+# keeps out all of a target's.
 function(bendy_batches target)
   cmake_language(EVAL CODE "cmake_language(DEFER CALL bendy_write_batches ${target})")
 endfunction()
@@ -119,7 +119,8 @@ function(bendy_write_batches target)
   foreach(source IN LISTS sources)
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE file)
     get_source_file_property(is_alone ${source} BENDY_ALONE)
-    if(NOT source MATCHES "\\.cpp$" OR is_alone OR NOT EXISTS ${file})
+    get_source_file_property(flags ${source} COMPILE_OPTIONS)
+    if(NOT source MATCHES "\\.cpp$" OR is_alone OR flags OR NOT EXISTS ${file})
       continue()
     endif()
     # A source that defines macros is compiled alone: they may change headers, as TINYGLTF_IMPLEMENTATION does.
@@ -150,16 +151,6 @@ function(bendy_write_batches target)
     file(CONFIGURE OUTPUT ${folder_of_batches}/${batch}.cpp CONTENT "${lines_${batch}}" @ONLY)
     target_sources(${target} PRIVATE ${folder_of_batches}/${batch}.cpp)
   endforeach()
-endfunction()
-
-# bendy_precompile(TARGET HEADER...): headers of other libraries that most of the target's files include. Precompiling them
-# takes as long as parsing them in four sources, so a smaller target does without.
-function(bendy_precompile target)
-  get_target_property(sources ${target} SOURCES)
-  list(LENGTH sources count)
-  if(BENDY_PRECOMPILE_HEADERS AND count GREATER 4)
-    target_precompile_headers(${target} PRIVATE ${ARGN})
-  endif()
 endfunction()
 
 # bendy_optimise(TARGET LEVEL): -O<LEVEL> in place of the -O3 of optimised builds, for code that compiles faster so and runs

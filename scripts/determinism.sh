@@ -11,7 +11,7 @@ for compiler in g++ clang++; do
     for level in 2 0; do
         build=build/determinism/$compiler-O$level
         cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE= -DCMAKE_CXX_COMPILER="$compiler" -DBENDY_VIEWER=OFF \
-            -DBENDY_TESTS=ON -DBENDY_BENCHMARKS=OFF -DBENDY_EXAMPLES=OFF -DBENDY_INSTALL=OFF -DBENDY_PRECOMPILE_HEADERS=ON \
+            -DBENDY_TESTS=ON -DBENDY_BENCHMARKS=OFF -DBENDY_EXAMPLES=OFF -DBENDY_INSTALL=OFF \
             -DCMAKE_CXX_FLAGS="-O$level" "$@" >/dev/null
         cmake --build "$build" --target bendy_convert_only
         for kind in "${kinds[@]}"; do

@@ -20,14 +20,12 @@ CONFIG = pathlib.Path(__file__).resolve().parent.parent / ".clang-tidy"
 
 
 def flags_of(entry):
-    """The compiler's arguments without the program, the output, the source and the precompiled header, which is another compiler's."""
+    """The compiler's arguments without the program, the output and the source."""
     words = entry["arguments"] if "arguments" in entry else shlex.split(entry["command"])
     while not words[0].endswith("++"):  # a launcher
         words = words[1:]
     kept, skip = [], False
-    for word, following in zip(words[1:], words[2:] + [""]):
-        if word == "-Winvalid-pch" or word.endswith("cmake_pch.hxx") or (word == "-include" and following.endswith("cmake_pch.hxx")):
-            continue
+    for word in words[1:]:
         if skip or word in ("-o", "-MF", "-MT", "-c", "-MD", entry["file"]):
             skip = not skip and word in ("-o", "-MF", "-MT")
             continue

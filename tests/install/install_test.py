@@ -120,7 +120,7 @@ class Shared(Case):
         build = ARGUMENTS.work / "shared_build"
         run(ARGUMENTS.cmake, "-S", ARGUMENTS.source, "-B", build, "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={ARGUMENTS.cxx}",
             "-DCMAKE_BUILD_TYPE=None", "-DBUILD_SHARED_LIBS=ON", "-DBENDY_TOOLS=OFF", "-DBENDY_TESTS=OFF",
-            "-DBENDY_BENCHMARKS=OFF", "-DBENDY_EXAMPLES=OFF", "-DBENDY_PRECOMPILE_HEADERS=ON")
+            "-DBENDY_BENCHMARKS=OFF", "-DBENDY_EXAMPLES=OFF")
         run(ARGUMENTS.cmake, "--build", build, "-j2")
         cls.work = ARGUMENTS.work / "shared"
         cls.prefix = install(build, cls.work)
