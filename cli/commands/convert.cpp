@@ -103,8 +103,9 @@ std::string depfile_of(const ConvertArguments& arguments, const converter::Repor
     }
     auto rule = depfile_text(arguments.output.generic_string(), sources);
     if (!rule) {
-        fail(output_name(arguments.depfile),
-             "cannot hold the file name " + quoted_for_shell(rule.error().name) + ": Make or Ninja reads it otherwise");
+        fail(output_name(arguments.depfile), "cannot hold the file name " +
+                                                 converter::quoted_for_shell(escaped(rule.error().name)) +
+                                                 ": Make or Ninja reads it otherwise");
     }
     return *std::move(rule);
 }

@@ -5,6 +5,7 @@
 #include "terminal/json.h"
 #include "terminal/messages.h"
 
+#include <bendy/converter/source_format.h>
 #include <bendy/format/chunk.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
@@ -176,7 +177,7 @@ bool is_picture(std::string_view suffix) {
 }
 
 std::string quoted(const fs::path& file) {
-    return quoted_for_shell(file.string());
+    return converter::quoted_for_shell(escaped(file.string()));
 }
 
 /// "bendy export fox.bendy -o fox.glb", where need be with the command that makes the bendy file first.

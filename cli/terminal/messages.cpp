@@ -111,25 +111,6 @@ std::string printable(std::string_view text) {
     return out.replace(cut, from - cut, "...");
 }
 
-std::string quoted_for_shell(std::string_view word) {
-    std::string name = escaped(word);
-    constexpr std::string_view kPlain = "._-/+:,@%";
-    const bool is_plain = !name.empty() && std::all_of(name.begin(), name.end(), [&](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               static_cast<unsigned char>(c) >= 0x80 || kPlain.find(c) != std::string_view::npos;
-    });
-    if (is_plain) return name;
-    std::string text = "'";
-    for (const char c : name) {
-        if (c == '\'') {
-            text += "'\\''";
-        } else {
-            text += c;
-        }
-    }
-    return text + '\'';
-}
-
 std::string grouped(std::uint64_t number) {
     std::string digits = std::to_string(number);
     for (std::size_t at = digits.size(); at > 3;) {

@@ -29,8 +29,6 @@ std::size_t escape_letter(const char*& at, const char* end, char* to);
 inline constexpr std::size_t kMostEscaped = 10;
 /// Escaped text for one line of a message: the middle of a very long one is left out.
 std::string printable(std::string_view text);
-/// A word of a command that is suggested to the user, as a shell reads it: in single quotes if need be.
-std::string quoted_for_shell(std::string_view word);
 /// 1234567 as "1,234,567".
 std::string grouped(std::uint64_t number);
 /// "1 mesh", "1,200 meshes". \param many  `one` with an s if not given

@@ -122,7 +122,7 @@ class FileKinds(unittest.TestCase):
 
     def test_what_convert_reads(self):
         for name, kind in SOURCES.items():
-            shown = f'"{name}"' if " " in name else name
+            shown = f"'{name}'" if " " in name else name
             for command, is_other, result in self.calls(name):
                 if command in CONVERTS or is_other:
                     # Nothing but what the conversion or the command has to say; a file that cannot be merged is another matter.

@@ -177,12 +177,6 @@ std::optional<FileKind> find_kind_of_text(std::string_view text, const std::stri
     return std::nullopt;
 }
 
-/// A file's name as it stands in a command line.
-std::string as_argument(const std::filesystem::path& file) {
-    const std::string name = file.string();
-    return name.find(' ') == std::string::npos ? name : '"' + name + '"';
-}
-
 std::string read_beginning(const std::filesystem::path& file) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored)) return {};
@@ -246,11 +240,31 @@ std::string why_not_a_file(const std::filesystem::path& file) {
     return std::filesystem::is_directory(status) ? "is a folder, not a file" : "";
 }
 
+std::string quoted_for_shell(std::string_view word) {
+    constexpr std::string_view kPlain = "._-/+:,@%";
+    const bool is_plain = !word.empty() && std::all_of(word.begin(), word.end(), [&](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               static_cast<unsigned char>(c) >= 0x80 || kPlain.find(c) != std::string_view::npos;
+    });
+    if (is_plain) return std::string(word);
+    std::string text = "'";
+    for (const char c : word) {
+        if (c == '\'') {
+            text += "'\\''";
+        } else {
+            text += c;
+        }
+    }
+    return text + '\'';
+}
+
 std::string why_not_bendy(const FileKind& kind, const std::filesystem::path& file) {
     if (kind.format == SourceFormat::bendy) return {};
     const std::string is_this = "is " + std::string(kind.name);
-    if (kind.format) return is_this + ", not a bendy file; convert it first: bendy convert " + as_argument(file);
-    if (kind.way_in.empty()) return is_this + "; make a bendy file of it first: bendy assemble " + as_argument(file);
+    if (kind.format)
+        return is_this + ", not a bendy file; convert it first: bendy convert " + quoted_for_shell(file.string());
+    if (kind.way_in.empty())
+        return is_this + "; make a bendy file of it first: bendy assemble " + quoted_for_shell(file.string());
     return is_this + ", which bendy does not read: " + std::string(kind.way_in);
 }
 

@@ -50,6 +50,14 @@ TEST(Importers, AreListedForPeople) {
     EXPECT_EQ(list_readable_suffixes(), ".gltf, .glb, .vrm, .x, .md2");
 }
 
+TEST(Importers, SuggestedCommandsNameAFileAndNothingElse) {
+    const auto kind = find_file_kind(bytes_of("glTF"), "fox.glb");
+    ASSERT_TRUE(kind);
+    EXPECT_TRUE(why_not_bendy(*kind, "a/fox.glb").ends_with(" bendy convert a/fox.glb"));
+    EXPECT_TRUE(why_not_bendy(*kind, "$(touch x) it's.glb").ends_with(R"( bendy convert '$(touch x) it'\''s.glb')"));
+    EXPECT_EQ(quoted_for_shell(""), "''");
+}
+
 TEST(Importers, EveryFormatHasOne) {
     for (const SourceFormat format : {SourceFormat::gltf, SourceFormat::bendy, SourceFormat::x, SourceFormat::md2})
         EXPECT_EQ(importer_of(format).format, format);

@@ -32,6 +32,9 @@ std::optional<FileKind> find_file_kind(const std::filesystem::path& file);
 
 /// "there is no such file", or "is a folder, not a file"; empty for everything else.
 std::string why_not_a_file(const std::filesystem::path& file);
+/// A word of a command that is suggested to the user, as a shell reads it: in single quotes if need be.
+std::string quoted_for_shell(std::string_view word);
+
 /// Why a file of that kind is no bendy file, and what makes one of it; empty if it is one.
 std::string why_not_bendy(const FileKind& kind, const std::filesystem::path& file);
 /// Why `convert` cannot read a file that is missing, a folder, or of a kind that it does not read; empty if it may try.
