@@ -166,8 +166,9 @@ void print_line(const CharacterDifference& difference) {
 void print_text(const CharacterComparison& comparison) {
     for (const CharacterDifference& difference : comparison.differences) print_line(difference);
     if (comparison.left_out != 0) std::cout << grouped(comparison.left_out) << " more differences\n";
-    std::cout << "tolerance " << length_text(comparison.tolerance) << "; worst measured "
-              << length_text(comparison.worst);
+    std::cout << "tolerance " << length_text(comparison.tolerance) << "; "
+              << (comparison.worst ? "worst measured " + length_text(*comparison.worst)
+                                   : "not measured: the skeletons differ");
     if (!comparison.worst_place.empty()) std::cout << ": " << printable(comparison.worst_place);
     std::cout << '\n';
     for (const converter::LookDifference& look : comparison.looks) {

@@ -115,7 +115,7 @@ Json comparison_as_json(const std::string& a_name, const std::string& b_name, co
                 {"same", comparison.differences.empty()},
                 {"tolerance", comparison.tolerance},
                 {"unit", "metres"},
-                {"worst", comparison.worst},
+                {"worst", comparison.worst ? Json(*comparison.worst) : Json()},
                 {"worstPlace", comparison.worst_place}};
     Json looks = Json::array();
     for (const converter::LookDifference& look : comparison.looks)

@@ -72,6 +72,24 @@ Mesh gather(const Mesh& mesh, std::span<const MatchedPolygons::Corner> corners,
     return gathered;
 }
 
+/// The mesh with its frames and displacements as another one has them, which has as many targets: the weights of a clip
+/// of either then mean the same.
+Mesh with_frames_of(const Mesh& other, Mesh mesh) {
+    for (std::size_t number = 0; number < mesh.targets.size(); ++number) {
+        MorphTarget& target = mesh.targets[number];
+        if (target.is_frame == other.targets[number].is_frame) continue;
+        if (target.is_frame) {
+            target.positions = shifts_of(target, target.positions, mesh.positions);
+        } else {
+            target.positions.resize(mesh.positions.size(), glm::vec3(0.0f));
+            for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex)
+                target.positions[vertex] += mesh.positions[vertex];
+        }
+        target.is_frame = !target.is_frame;
+    }
+    return mesh;
+}
+
 class Comparison {
 public:
     Comparison(const Scene& a, const Scene& b, const ErrorBound& tolerance) : a_(a), source_b_(b) {
@@ -81,6 +99,7 @@ public:
 
     CharacterComparison run(const std::function<void(double)>& progress) {
         if (!pair_joints()) return std::move(result_);
+        result_.worst = 0.0;
         pair_meshes();
         compare_materials();
         pair_clips();
@@ -112,7 +131,7 @@ private:
 
     /// A distance that has been met: may be the worst, may be too much. False if it is not.
     bool add_distance(double metres, const std::string& place) {
-        if (metres > result_.worst || (result_.worst_place.empty() && metres > 0.0)) {
+        if (metres > result_.worst) {
             result_.worst = metres;
             result_.worst_place = place;
         }
@@ -328,19 +347,20 @@ private:
     // --- polygons
 
     void compare_meshes() {
-        // Both on A's skeleton, so that no joint's error is taken for the skin's.
+        // Both on A's skeleton and in A's clips, so that no joint's error is taken for the skin's.
         Scene a;
         Scene b;
         a.joints = b.joints = a_.joints;
         for (const std::uint32_t number : numbers_) a.meshes.push_back(a_.meshes[number]);
-        b.meshes = b_.meshes;
+        for (std::size_t mesh = 0; mesh < a.meshes.size(); ++mesh)
+            b.meshes.push_back(with_frames_of(a.meshes[mesh], b_.meshes[mesh]));
         a.clips = b.clips = a_clips_;
         const std::vector<std::vector<Shape>> shapes_a = find_shapes(a);
         const std::vector<std::vector<Shape>> shapes_b = find_shapes(b);
         for (std::size_t mesh = 0; mesh < a.meshes.size(); ++mesh) {
             const std::string place = "mesh " + quoted_name(a.meshes[mesh].name, numbers_[mesh]);
-            const Looks looks(a.meshes[mesh], b.meshes[mesh]);
-            const MatchedPolygons matched = match_polygons(a.meshes[mesh], b.meshes[mesh], shapes_a[mesh],
+            const Looks looks(a.meshes[mesh], b_.meshes[mesh]);
+            const MatchedPolygons matched = match_polygons(a.meshes[mesh], b_.meshes[mesh], shapes_a[mesh],
                                                            shapes_b[mesh], material_of_, looks, result_.tolerance);
             result_.gave_up = result_.gave_up || matched.gave_up;
             if (result_.gave_up) return;
@@ -348,7 +368,7 @@ private:
             add_polygons(Kind::only_in_b, matched.only_in_b, place, shapes_b[mesh][0]);
             compare_looks(looks, matched.corners, place);
             a_meshes_.push_back(gather(a.meshes[mesh], matched.corners, &MatchedPolygons::Corner::a));
-            b_meshes_.push_back(gather(b.meshes[mesh], matched.corners, &MatchedPolygons::Corner::b));
+            b_meshes_.push_back(gather(b_.meshes[mesh], matched.corners, &MatchedPolygons::Corner::b));
             corners_.push_back(matched.corners);
         }
     }

@@ -166,8 +166,8 @@ export interface CharacterDifferences extends FileDifferences {
   /** Metres. */
   tolerance: number;
   unit: 'metres';
-  /** The largest distance that was measured, and where. */
-  worst: number;
+  /** The largest distance that was measured, and where; null if none was, because the skeletons differ. */
+  worst: number | null;
   worstPlace: string;
   /** How far apart normals, texture coordinates and colours are. */
   looks: { place: string; apart: number; allowed: number; unit: string }[];

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,9 +34,9 @@ struct LookDifference {
 };
 
 struct CharacterComparison {
-    double tolerance = 0.0;   ///< metres
-    double worst = 0.0;       ///< metres: the farthest that anything is from where it should be
-    std::string worst_place;  ///< empty where nothing is
+    double tolerance = 0.0;       ///< metres
+    std::optional<double> worst;  ///< metres: the farthest that anything is from where it should be; none: not measured
+    std::string worst_place;      ///< empty where nothing is
     std::vector<LookDifference> looks;
     std::vector<CharacterDifference> differences;  ///< none: the characters are alike
     std::uint64_t left_out = 0;                    ///< further differences that are not listed
