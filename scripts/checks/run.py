@@ -166,7 +166,7 @@ def parse(arguments):
         parser.error("--since and --again go with all")
     if options.since and subprocess.run(["git", "rev-parse", "--verify", "--quiet", f"{options.since}^{{commit}}"], cwd=ROOT,
                                         stdout=subprocess.DEVNULL, check=False).returncode != 0:
-        parser.error(f"--since {options.since}: there is no such revision")
+        parser.error(f"--since: unknown revision {options.since}")
     return options, ctest_options
 
 
