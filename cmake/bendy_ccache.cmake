@@ -5,7 +5,12 @@ if(NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED ENV{CMAKE_CXX_COMPILE
   find_program(BENDY_CCACHE ccache)
   if(BENDY_CCACHE)
     set(launcher ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 CCACHE_DEPEND=1
-      CCACHE_SLOPPINESS=time_macros,include_file_mtime,include_file_ctime ${BENDY_CCACHE})
+      CCACHE_SLOPPINESS=time_macros,include_file_mtime,include_file_ctime)
+    if(EMSCRIPTEN)  # a script, which starts the compiler behind the cache itself
+      list(APPEND launcher EM_COMPILER_WRAPPER=${BENDY_CCACHE})
+    else()
+      list(APPEND launcher ${BENDY_CCACHE})
+    endif()
     set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
     set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
   endif()

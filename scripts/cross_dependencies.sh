@@ -3,13 +3,14 @@
 #   aarch64   Debian's packages for that processor, unpacked
 #   windows   zstd, meshoptimizer, draco and googletest, from Debian's source packages, by mingw-w64
 #   static    zstd, meshoptimizer and draco, from the same sources, as static libraries for this machine
+#   fuzzers   the same, by clang, with what AddressSanitizer and the fuzzer need
 #   web       zstd and meshoptimizer, from the same sources, for WebAssembly with SIMD; web-plain: without
 #   web-tools zstd, meshoptimizer, draco, zlib and double-conversion, from the same sources, for WebAssembly
 # Libraries that are headers only are this machine's. Packages come from the mirror that this machine uses; what apt knows
 # of other processors and of sources stays in build/cross/apt.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-system=${1:?usage: scripts/cross_dependencies.sh windows|aarch64|static|web|web-plain|web-tools}
+system=${1:?usage: scripts/cross_dependencies.sh windows|aarch64|static|fuzzers|web|web-plain|web-tools}
 here=$PWD/build/cross
 root=$here/$system/libraries
 versions=$(cat "$0" cmake/"$system".cmake cmake/emscripten.cmake; dpkg-query -W libzstd-dev libmeshoptimizer-dev libdraco-dev libgtest-dev libglm-dev \
@@ -98,6 +99,10 @@ fetch_web-tools() {
 fetch_static() {
     build_codecs
     cp /usr/lib/x86_64-linux-gnu/libz.a "$root/usr/lib/"
+}
+
+fetch_fuzzers() {
+    build_codecs
 }
 
 fetch_windows() {

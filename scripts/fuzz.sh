@@ -1,21 +1,27 @@
 #!/usr/bin/env bash
 # Fuzzes for a while; exit 1 and the inputs, if anything was found.
-#   scripts/fuzz.sh                        ten seconds for each target, two at a time: for every change; with one seed and an
-#                                          empty corpus, so that two changes are judged by the same inputs
-#   scripts/fuzz.sh 7200 [animate gltf]    two hours each for these, or all, other inputs every time
+#   scripts/fuzz.sh                           five seconds for each target, two at a time: for every change; with one seed and an
+#                                             empty corpus, so that two changes are judged by the same inputs
+#   scripts/fuzz.sh 7200 [animate convert]    two hours each for these, or all, other inputs every time; the libraries that
+#                                             decode are instrumented, too
 # The corpora stay in build/fuzz/corpus and grow from run to run; findings are in build/fuzz/findings.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-seconds=${1:-10}
 targets=("${@:2}")
-seed=$([ $# -gt 0 ] && echo 0 || echo 1)
-programs=build/asan-ubsan
 build=build/fuzz
+if [ $# = 0 ]; then
+    seconds=5 seed=1 programs=build/asan-ubsan preset=asan-ubsan
+else
+    seconds=$1 seed=0 programs=build/fuzzers preset=fuzzers
+    scripts/cross_dependencies.sh fuzzers
+fi
 
-cmake --preset asan-ubsan >/dev/null
-cmake --build --preset asan-ubsan --target fuzz_targets
-[ ${#targets[@]} -gt 0 ] || for program in "$programs"/tests/fuzz/fuzz_*; do targets+=("${program##*/fuzz_}"); done
+cmake --preset "$preset" >/dev/null
+cmake --build --preset "$preset" --target fuzz_targets
+[ ${#targets[@]} -gt 0 ] || for program in "$programs"/tests/fuzz/fuzz_*; do
+    [ ! -x "$program" ] || targets+=("${program##*/fuzz_}")
+done
 
 if [ ! -d "$build/seeds" ]; then
     cmake --preset release >/dev/null
@@ -29,8 +35,7 @@ fi
 fuzz() { # fuzz TARGET: one process, its last lines printed
     local target=$1 seeds=$build/seeds/bendy
     case $target in
-        gltf | md2 | rig | text | x) seeds=$build/seeds/$target ;;
-        codec) seeds=$build/seeds/codec ;;
+        codec | convert | md2 | rig | text | x) seeds=$build/seeds/$target ;;
     esac
     local corpus=$build/corpus/$target log=$build/fuzz_$target.log status=0
     if [ "$seed" = 1 ]; then
@@ -38,8 +43,8 @@ fuzz() { # fuzz TARGET: one process, its last lines printed
         rm -rf "$corpus"
     fi
     mkdir -p "$corpus" "$build/findings"
-    "$programs/tests/fuzz/fuzz_$target" -seed="$seed" -max_total_time="$seconds" -max_len=65536 -timeout=60 -rss_limit_mb=3072 \
-        -malloc_limit_mb=1024 -print_final_stats=1 -artifact_prefix="$build/findings/$target-" \
+    "$programs/tests/fuzz/fuzz_$target" -seed="$seed" -max_total_time="$seconds" -max_len=65536 -timeout=60 -rss_limit_mb=2048 \
+        -malloc_limit_mb=128 -print_final_stats=1 -artifact_prefix="$build/findings/$target-" \
         "$corpus" "$seeds" >"$log" 2>&1 || status=$?
     printf '%-14s %s executions, %s\n' "$target" \
         "$(sed -n 's/stat::number_of_executed_units: *//p' "$log")" "$([ $status = 0 ] && echo "nothing found" || echo FOUND)"

@@ -1,25 +1,21 @@
-// Mutates bendy files so that the hours go beneath the grammar and the sums: inside leaves, and by moving whole chunks.
-// Linked into every target that takes a bendy file; see LLVMFuzzerCustomMutator in libFuzzer's documentation.
 #include "format/edit_file.h"
+#include "mutators.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <random>
 #include <span>
 #include <vector>
-
-// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's names
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
 namespace {
 
 using namespace bendy;
+using fuzz::below;
+using fuzz::Random;
 using test::Buffer;
 using test::Node;
-using Random = std::minstd_rand;
 
 constexpr std::array<std::uint64_t, 20> kAwkward{0,
                                                  1,
@@ -41,10 +37,6 @@ constexpr std::array<std::uint64_t, 20> kAwkward{0,
                                                  0x7fc0'0000 /* NaN */,
                                                  0x3f80'0000 /* 1 */,
                                                  0x8000'0000'0000'0000};
-
-std::size_t below(Random& random, std::size_t count) {
-    return count == 0 ? 0 : random() % count;
-}
 
 void list(Node& node, std::vector<Node*>& all) {
     all.push_back(&node);
@@ -133,9 +125,9 @@ Buffer aligned(const std::uint8_t* data, std::size_t size) {
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-identifier-naming)
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
-                                               unsigned seed) {
+namespace bendy::fuzz {
+
+std::size_t mutate_bendy(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed) {
     Random random(seed);
     const Buffer before = aligned(data, size);
     if (random() % 8 != 0 && read_chunk_tree(before)) {
@@ -150,11 +142,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
     return size;
 }
 
-/// A chunk of one file takes the place of one with the same id in the other.
-// NOLINTNEXTLINE(readability-identifier-naming)
-extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* a, std::size_t a_size, const std::uint8_t* b,
-                                                 std::size_t b_size, std::uint8_t* out, std::size_t max_size,
-                                                 unsigned seed) {
+std::size_t cross_bendy(const std::uint8_t* a, std::size_t a_size, const std::uint8_t* b, std::size_t b_size,
+                        std::uint8_t* out, std::size_t max_size, unsigned seed) {
     Random random(seed);
     const Buffer first = aligned(a, a_size);
     const Buffer second = aligned(b, b_size);
@@ -169,3 +158,5 @@ extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* a, std::siz
     *places[below(random, places.size())] = source;
     return put(test::to_file(to), {out, max_size});
 }
+
+}  // namespace bendy::fuzz

@@ -2,6 +2,7 @@
 #include <bendy/converter/report.h>
 
 #include "failure.h"
+#include "mutators.h"
 #include "rig/parse_rig.h"
 
 #include <cstddef>
@@ -16,4 +17,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } catch (const bendy::converter::Failure&) {
     }
     return 0;
+}
+
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
+                                               unsigned seed) {
+    return bendy::fuzz::mutate_gltf(data, size, max_size, seed);
 }

@@ -1,5 +1,5 @@
-// Mutates glTF files part by part: a value of the JSON, or the bytes behind it, so that both stay readable. Text stays
-// text, .glb stays .glb with lengths that are right.
+#include "mutators.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -8,18 +8,15 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <random>
 #include <string>
 #include <string_view>
 #include <vector>
 
-// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's names
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
-
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Random = std::minstd_rand;
+using bendy::fuzz::below;
+using bendy::fuzz::Random;
 
 constexpr std::uint32_t kMagic = 0x46546c67;
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a;
@@ -31,10 +28,6 @@ struct Parts {
     std::string bin;
     bool is_glb = false;
 };
-
-std::size_t below(Random& random, std::size_t count) {
-    return count == 0 ? 0 : random() % count;
-}
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
     std::uint32_t word = 0;
@@ -194,9 +187,9 @@ void change_bin(std::string& bin, Random& random) {
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-identifier-naming)
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
-                                               unsigned seed) {
+namespace bendy::fuzz {
+
+std::size_t mutate_gltf(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed) {
     Random random(seed);
     Parts parts;
     if (random() % 8 == 0 || !split({reinterpret_cast<const char*>(data), size}, parts))
@@ -213,3 +206,5 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
     std::memcpy(data, made.data(), made.size());
     return made.size();
 }
+
+}  // namespace bendy::fuzz

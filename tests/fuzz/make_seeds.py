@@ -3,9 +3,10 @@
 
     tests/fuzz/make_seeds.py BENDY OUT [FOLDER...]
 
-OUT/gltf gets glTF files: some that are made here, and those of the FOLDERs with their buffers packed into them;
-OUT/bendy bendy files: their conversions by the program BENDY, and the specification's and the tests' own; OUT/codec the
-leaves of these; OUT/rig their rig files; OUT/text their text forms; OUT/x X-files; OUT/md2 Quake II models. Only small files: a fuzzer finds more in a thousand small ones than in one large one.
+OUT/bendy gets bendy files: the program BENDY's conversions of glTF files that are made here, and of those of the FOLDERs
+with their buffers packed into them, and the specification's and the tests' own; OUT/codec the leaves of these; OUT/rig their
+rig files; OUT/text their text forms; OUT/x X-files; OUT/md2 Quake II models; OUT/convert sources of all formats, each with
+several sets of options. Only small files: a fuzzer finds more in a thousand small ones than in one large one.
 """
 
 import argparse
@@ -28,6 +29,9 @@ from md2_file import md2_file  # noqa: E402
 
 LARGEST = 48_000  # bytes
 PACKED = 8  # what fuzz_codec takes for a packed clip: the number after the last codec's
+# The tails of fuzz_convert's input: switches in two bytes, a bound, a number; convert_input.cpp.
+TAILS = tuple(struct.pack("<HBB", *tail) for tail in (
+    (0, 0, 0), (0b0000_0101, 0, 1), (0b0011_0010, 0, 2), (0b1001_1001, 1, 3), (0b0111_1111, 7, 4), (0b1101_0000_1001, 3, 16)))
 OPTIONS = ([], ["--compact"], ["--lod"], ["--lod", "--compact"], ["--auto-rig"], ["--sort-vertices"])
 
 
@@ -182,6 +186,16 @@ def keep(folder, data):
         (folder / hashlib.sha256(data).hexdigest()[:16]).write_bytes(data)
 
 
+def keep_conversion(folder, source, rig=b""):
+    """A source as fuzz_convert takes it, with two sets of options: others for each source, and all for what has a rig."""
+    if source is None or len(source) + len(rig) > LARGEST // 8:
+        return
+    first = hashlib.sha256(source).digest()[0]
+    tails = TAILS if rig else [TAILS[(first + k) % len(TAILS)] for k in (0, 2)]
+    for tail in tails:
+        keep(folder, source + rig + tail + struct.pack("<I", len(rig)))
+
+
 def gather(bendy, out, folders, work):
     sources = [strange_file(work / "strange.gltf")]
     sources += [character(work / f"{name}.gltf", name) for name in ("STEP", "LINEAR", "CUBICSPLINE")]
@@ -191,9 +205,9 @@ def gather(bendy, out, folders, work):
     for source in sources:
         if source.stat().st_size > 2 * LARGEST:
             continue
-        keep(out / "gltf", packed(source))
+        keep_conversion(out / "convert", packed(source))
         if source.suffix == ".gltf" or packed(source) is None:
-            keep(out / "gltf", source.read_bytes())
+            keep_conversion(out / "convert", source.read_bytes())
         for options in OPTIONS:
             converted = work / "converted.bendy"
             done = subprocess.run([bendy, "convert", source, "-o", converted, *options], capture_output=True, check=False)
@@ -202,6 +216,8 @@ def gather(bendy, out, folders, work):
                 rig = subprocess.run([bendy, "rig", converted], capture_output=True, check=False)
                 if rig.returncode == 0:
                     keep(out / "rig", rig.stdout)
+                    if "--auto-rig" in options:
+                        keep_conversion(out / "convert", packed(source), rig.stdout)
                 keep_texts(bendy, out / "text", converted)
                 written = work / "written.x"
                 exported = subprocess.run([bendy, "export", converted, "-o", written], capture_output=True, check=False)
@@ -212,11 +228,16 @@ def gather(bendy, out, folders, work):
     keep(out / "x", binary_x_file())
     for names in (("only",), ("stand01", "stand02", "run1"), ("pain101", "pain102", "pain201")):
         keep(out / "md2", md2_file(work / "model.md2", names).read_bytes())
+    for folder in ("x", "md2"):
+        for file in sorted((out / folder).iterdir()):
+            keep_conversion(out / "convert", file.read_bytes())
     for folder in ("spec", "tests"):
         for file in sorted((ROOT / folder).rglob("*.bendy")):
             keep(out / "bendy", file.read_bytes())
             keep_texts(bendy, out / "text", file)
     for file in sorted((out / "bendy").iterdir()):
+        if int(file.name, 16) % 8 == 0:
+            keep_conversion(out / "convert", file.read_bytes())
         keep_leaves(out / "codec", file.read_bytes())
 
 

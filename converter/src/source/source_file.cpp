@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <exception>
 #include <fstream>
 #include <iterator>
@@ -80,23 +81,29 @@ std::string uri_between(const std::filesystem::path& folder, const std::filesyst
     return "file:///" + target.root_name().generic_string() + uri_of(target.root_directory() / target.relative_path());
 }
 
+/// "cannot read file 'a.bin': Too many open files". \param number  the system's; 0: it did not say
+[[noreturn]] void fail_to_read(const std::string& place, const std::filesystem::path& file, int number) {
+    const std::string why = number == 0 ? std::string() : ": " + std::generic_category().message(number);
+    fail(place, "cannot read file " + quote(file.filename().string()) + why);
+}
+
 }  // namespace
 
 std::vector<std::byte> read_file(const std::filesystem::path& file, const std::string& place, std::uint64_t limit) {
     std::error_code error;
     const auto status = std::filesystem::status(file, error);
+    if (status.type() == std::filesystem::file_type::none) fail_to_read(place, file, error.value());
     if (!std::filesystem::exists(status)) fail(place, "file not found: " + quote(file.filename().string()));
     // A device or a pipe behind a relative URI would have no end.
     if (!std::filesystem::is_regular_file(status))
         fail(place, "not a regular file: " + quote(file.filename().string()));
     const std::uint64_t size = std::filesystem::file_size(file, error);
+    errno = 0;
     std::ifstream stream(file, std::ios::binary);
-    if (error || !stream) fail(place, "cannot read file " + quote(file.filename().string()));
+    if (error || !stream) fail_to_read(place, file, error ? error.value() : errno);
     std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(size, limit)));
     stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (static_cast<std::size_t>(stream.gcount()) != bytes.size()) {
-        fail(place, "cannot read file " + quote(file.filename().string()));
-    }
+    if (static_cast<std::size_t>(stream.gcount()) != bytes.size()) fail_to_read(place, file, errno);
     return bytes;
 }
 
