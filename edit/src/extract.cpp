@@ -134,8 +134,7 @@ void keep_used_surfaces(const Source& source, std::size_t object_number, Kept& k
               surface.occlusion_texture, surface.emissive_texture}) {
             if (use.texture != kNone) kept.textures[use.texture] = true;
         }
-        const auto more = texture_numbers(material.extensions);
-        for (const std::uint32_t number : more.value_or(std::vector<std::uint32_t>())) {
+        for (const std::uint32_t number : texture_numbers(material.extensions)) {
             if (number < kept.textures.size()) kept.textures[number] = true;
         }
     }

@@ -248,7 +248,7 @@ Kept everything(const Document& document) {
 }
 
 Result<void, Problem> keep_only(const Source& source, const Kept& kept, Rewrite& rewrite, Log& log) {
-    update_textures(source, kept, rewrite, log);
+    update_textures(source, kept, rewrite);
     for (std::size_t m = 0; m < kept.materials.size(); ++m) {
         if (!kept.materials[m]) rewrite.remove(source.document.materials[m].chunk);
     }
@@ -260,6 +260,7 @@ Result<void, Problem> keep_only(const Source& source, const Kept& kept, Rewrite&
         if (const auto updated = ObjectUpdater(source, kept, k, rewrite, log).update(); !updated)
             return updated.error();
     }
+    update_extensions(source, kept, rewrite, log);
     return {};
 }
 

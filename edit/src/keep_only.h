@@ -5,7 +5,6 @@
 #include <bendy/format/limits.h>
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -54,12 +53,14 @@ struct ObjectNumbers {
     std::vector<std::vector<std::uint32_t>> vertices;  ///< by mesh; empty: unchanged
 };
 
-/// Returns the texture numbers in a material's extensions (EXTN): those of glTF's texture infos, which are objects with
-/// an "index" whose names end in "Texture". Returns nothing if the text is recognisably not JSON.
-std::optional<std::vector<std::uint32_t>> texture_numbers(std::string_view json);
+/// Returns the texture numbers in a material's extensions (EXTN).
+std::vector<std::uint32_t> texture_numbers(std::string_view json);
 
-/// Updates TEXT, and the texture numbers in all materials.
-void update_textures(const Source& source, const Kept& kept, Rewrite& rewrite, Log& log);
+/// Updates TEXT, and the texture numbers in the records of all materials.
+void update_textures(const Source& source, const Kept& kept, Rewrite& rewrite);
+
+/// Updates the numbers in all extensions (EXTN); what names a thing that goes is taken out.
+void update_extensions(const Source& source, const Kept& kept, Rewrite& rewrite, Log& log);
 
 /// Updates the streams, targets, palette and owner of a mesh that is kept. `index_runs` are the runs of INDX that are
 /// kept, ascending.

@@ -116,8 +116,8 @@ Result<fs::path, LinkProblem> ReadableFolders::find(std::string_view uri) const 
         !(hold(*decoded) && fs::exists(*decoded, ignored))) {
         return *literal;
     }
-    if (!hold(*decoded)) return LinkProblem::outside;
-    return *decoded;
+    if (hold(*decoded)) return *decoded;
+    return real_path(*decoded).empty() ? LinkProblem::no_name : LinkProblem::outside;
 }
 
 bool ReadableFolders::hold(const fs::path& file) const {

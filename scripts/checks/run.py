@@ -4,7 +4,7 @@
     scripts/test.sh                       the gate: what a change must pass, in 20 to 25 minutes
     scripts/test.sh all                   the outer ring: everything else; goes on where it stopped
     scripts/test.sh all --since REVISION  the steps of the outer ring that the files changed since then can break
-    scripts/test.sh STEP...               these steps; options after -- are ctest's: scripts/test.sh tests -- -R Skin
+    scripts/test.sh STEP...               these steps, and the builds that they need; options after -- are ctest's: scripts/test.sh tests -- -R Skin
     scripts/test.sh --list                the steps of each ring
 
 Stops at the first step that fails, and says how to run it alone.
@@ -96,19 +96,18 @@ def run_step(step, tests_of_step, ctest_options):
     return None
 
 
-def run(steps, named_steps, passed, ctest_options, keep_going):
+def run(steps, asked, passed, ctest_options, keep_going):
     start = time.monotonic()
     failures, times = [], []
     for step in steps:
         began = time.monotonic()
         print(f"\n== {clock(began - start)}  {step.name}: {step.what}", flush=True)
-        # Options are for the tests of the steps that are named: of the others, only the builds are needed.
-        tests_of_step = step.tests if not ctest_options or step.name in named_steps else ()
-        failure = run_step(step, tests_of_step, ctest_options)
+        is_asked = step in asked  # of those that another step needs, only the builds are needed
+        failure = run_step(step, step.tests if is_asked else (), ctest_options)
         took = time.monotonic() - began
         times.append((took, step.name, failure is None))
         if failure is None:
-            if not ctest_options:
+            if is_asked and not ctest_options:
                 passed.add(step, took)
             continue
         failures.append((step, *failure))
@@ -134,11 +133,11 @@ def with_needed(steps):
 
 
 def choose(options):
-    """The steps to run, in their order."""
+    """The steps that are asked for, in their order."""
     if not options.steps:
         return [step for step in STEPS if step.ring == "gate"]
     if options.steps != ["all"]:
-        return with_needed(named(name) for name in options.steps)
+        return [named(name) for name in options.steps]
     steps = [step for step in STEPS if step.ring == "all"]
     if options.since is None:
         return steps
@@ -188,7 +187,7 @@ def main():
             if passed.has(step):
                 print(f"{step.name}: has passed on these sources")
         steps = [step for step in steps if not passed.has(step)]
-    return run(steps, options.steps, passed, ctest_options, options.keep_going)
+    return run(with_needed(steps), steps, passed, ctest_options, options.keep_going)
 
 
 if __name__ == "__main__":

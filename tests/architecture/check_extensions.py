@@ -9,7 +9,7 @@ EXTENSION = re.compile(r"__builtin_\w+|__attribute__|\[\[gnu::|vector_size|__int
 # These have another way beside each extension.
 MAY_USE = re.compile(r"format/include/bendy/format/public\.h|format/src/(crc32c|processor)\.cpp|converter/src/collapse/distances\.h"
                      r"|capi/include/bendy\.h")
-FOLDERS = ("format", "runtime", "capi", "converter", "diff", "edit", "text_form", "stages", "viewer", "cli")
+FOLDERS = ("format", "runtime", "capi", "extensions", "converter", "diff", "edit", "text_form", "stages", "viewer", "cli")
 
 
 def main():

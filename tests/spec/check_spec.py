@@ -2,7 +2,7 @@
 """Holds the specification against the code: python3 check_spec.py [SOURCE_DIR]
 
 Compares the tables of format/ (chunk_ids.def, records.def, error_codes.def, limits.h, the enumerations of records.h, the
-flags of chunk.h, the stream rules of mesh.cpp) with the tables of spec/, in both directions, those of the grammar files
+flags of chunk.h, the stream rules of mesh.cpp, and references.def of extensions/) with the tables of spec/, in both directions, those of the grammar files
 bendy.ksy and bendy.hexpat among them; follows the links between pages; and asks the scripts of spec/ whether their dumps and files are what they make now. One line for each difference; exit 1 if
 there is one. Python 3, nothing else.
 """
@@ -397,6 +397,30 @@ def check_constraints_of(check):
         check.same('spec/' + page, 'version', found[1] if found else 'none', version)
 
 
+THINGS = {'joint': 'joint', 'mesh': 'mesh', 'material': 'material', 'texture': 'texture', 'image': 'image',
+          'target_of_joint': 'target of the joint `%s`', 'target_of_mesh': 'target of the mesh `%s`', 'element': 'element of `%s`',
+          'rows_of_materials': 'one element for each material'}
+GONE = {'entry': 'entry', 'entry_or_list': 'entry, and an emptied list', 'member': 'member', 'all': 'extension', 'minus_one': '-1'}
+
+
+def check_references(check):
+    name = 'spec/rig.md'
+    table = (check.source / 'extensions/include/bendy/extensions/references.def').read_text(encoding='utf-8')
+    lines = re.findall(r'^BENDY_REFERENCE\("(\w+)", (\w+), "([^"]*)", (\w+), "([^"]*)", (\w+)\)$', table, re.MULTILINE)
+    check.understood(lines and len(lines) == len(re.findall(r'^BENDY_REFERENCE', table, re.MULTILINE)), 'references.def')
+    code = {}
+    for extension, host, path, thing, beside, gone in lines:
+        number = THINGS[thing] % beside if '%s' in THINGS[thing] else THINGS[thing]
+        code['`%s` of %s: `%s`' % (extension, host, path)] = (number, GONE[gone])
+    spec = {}
+    for _, header, rows in tables(check.page('rig.md')):
+        if header == ['extension', 'of', 'member', 'number of', 'taken out']:
+            spec.update({'%s of %s: %s' % (row[0], row[1], row[2]): (row[3], row[4]) for row in rows})
+    check.same_keys(name, 'reference', list(spec), list(code))
+    for key in spec.keys() & code.keys():
+        check.same(name, key, spec[key], code[key])
+
+
 def check_flags(check):
     name = 'spec/grammar.md'
     masks = {}
@@ -541,6 +565,7 @@ def main(arguments):
     check_streams(check)
     check_codes(check)
     check_constraints_of(check)
+    check_references(check)
     check_flags(check)
     check_kaitai(check, chunks, records)
     check_hexpat(check, chunks, records)

@@ -3,11 +3,14 @@
 #include "failure.h"
 #include "parts.h"
 
+#include <bendy/extensions/renumber_extensions.h>
+
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -149,30 +152,7 @@ void report_extensions(const Json& root, Report& report) {
 
 namespace {
 
-/// Where an extension holds a node's number. In a path `[]` means each element of an array, `{}` each member of an
-/// object.
-struct NodeReference {
-    std::string_view extension;
-    std::string_view path;
-};
-constexpr std::array kNodeReferences{
-    NodeReference{"MSFT_lod", "ids[]"},
-    NodeReference{"VRM", "firstPerson.firstPersonBone"},
-    NodeReference{"VRM", "humanoid.humanBones[].node"},
-    NodeReference{"VRM", "secondaryAnimation.boneGroups[].bones[]"},
-    NodeReference{"VRM", "secondaryAnimation.boneGroups[].center"},
-    NodeReference{"VRM", "secondaryAnimation.colliderGroups[].node"},
-    NodeReference{"VRMC_node_constraint", "constraint.aim.source"},
-    NodeReference{"VRMC_node_constraint", "constraint.roll.source"},
-    NodeReference{"VRMC_node_constraint", "constraint.rotation.source"},
-    NodeReference{"VRMC_springBone", "colliders[].node"},
-    NodeReference{"VRMC_springBone", "springs[].center"},
-    NodeReference{"VRMC_springBone", "springs[].joints[].node"},
-    NodeReference{"VRMC_vrm", "expressions.custom{}.morphTargetBinds[].node"},
-    NodeReference{"VRMC_vrm", "expressions.preset{}.morphTargetBinds[].node"},
-    NodeReference{"VRMC_vrm", "firstPerson.meshAnnotations[].node"},
-    NodeReference{"VRMC_vrm", "humanoid.humanBones{}.node"},
-};
+constexpr std::string_view kVariants = "KHR_materials_variants";
 
 /// What to say of an extension that is kept; empty for one that is interpreted in full.
 std::string kept_message(const std::string& name) {
@@ -182,89 +162,89 @@ std::string kept_message(const std::string& name) {
                quote(name);
     }
     if (name == "VRMC_vrm") return "extension kept as JSON, only its humanoid is interpreted: " + quote(name);
-    if (name == "VRM") {
-        return "extension kept as JSON, only its humanoid is interpreted, mesh numbers in it are the source's: " +
-               quote(name);
-    }
-    const bool is_renumbered = std::any_of(kNodeReferences.begin(), kNodeReferences.end(),
-                                           [&](const NodeReference& known) { return known.extension == name; });
-    return (is_renumbered ? "extension kept as JSON, not interpreted: "
-                          : "extension kept as JSON, not interpreted, numbers in it are the source's: ") +
+    return (extensions::is_known(name) ? "extension kept as JSON, not interpreted: "
+                                       : "extension kept as JSON, not interpreted, numbers in it are the source's: ") +
            quote(name);
 }
 
-/// Puts joint numbers in place of node numbers.
-class Renumberer {
+/// Puts the Scene's numbers in place of glTF's.
+class SceneNumbers {
 public:
-    Renumberer(const Skeleton& skeleton, Report& report) : skeleton_(skeleton), report_(report) {}
-
-    void renumber(const std::string& name, Json& extension, const std::string& place) {
-        for (const NodeReference& known : kNodeReferences) {
-            if (known.extension != name) continue;
-            place_ = place;
-            walk(extension, known.path);
+    SceneNumbers(const Document& document, const Skeleton& skeleton, const MeshesOfNode& meshes, Scene& scene)
+        : skeleton_(skeleton), meshes_(meshes), scene_(scene) {
+        for (const std::uint32_t node : skeleton.node_of_joint) {
+            const int mesh = document.model.nodes[node].mesh;
+            if (mesh >= 0 && !meshes[node].empty())
+                mesh_of_source_.try_emplace(static_cast<std::uint32_t>(mesh), meshes[node].front());
         }
+    }
+
+    std::optional<std::uint32_t> operator()(extensions::Thing thing, std::uint32_t number, std::uint32_t owner) {
+        switch (thing) {
+            case extensions::Thing::joint:
+                return number < skeleton_.joint_of_node.size() ? there(skeleton_.joint_of_node[number]) : std::nullopt;
+            case extensions::Thing::mesh:
+                return mesh_of(number);
+            case extensions::Thing::target_of_joint:
+                if (owner >= meshes_.size() || meshes_[owner].empty()) return std::nullopt;
+                return target_of(meshes_[owner].front(), number);
+            case extensions::Thing::target_of_mesh: {
+                const auto mesh = mesh_of(owner);
+                return mesh ? target_of(*mesh, number) : std::nullopt;
+            }
+            case extensions::Thing::material:
+            case extensions::Thing::rows_of_materials:
+                return below(number, scene_.materials.size());
+            case extensions::Thing::texture:
+                return below(number, scene_.textures.size());
+            case extensions::Thing::image:
+                return texture_with(number);
+            case extensions::Thing::element:
+                break;
+        }
+        return std::nullopt;
     }
 
 private:
-    // NOLINTNEXTLINE(misc-no-recursion): as deep as the path is long
-    void walk(Json& value, std::string_view path) {
-        if (path.empty()) return replace(value);
-        const std::size_t length = place_.size();
-        if (path.substr(0, 2) == "[]") {
-            if (!value.is_array()) return;
-            for (std::size_t i = 0; i < value.size(); ++i) {
-                place_ += at("", i);
-                walk(value[i], path.substr(2));
-                place_.resize(length);
-            }
-        } else if (path.substr(0, 2) == "{}") {
-            if (!value.is_object()) return;
-            for (auto member = value.begin(); member != value.end(); ++member) {
-                place_ += '.' + key(member.key());
-                walk(member.value(), path.substr(2));
-                place_.resize(length);
-            }
-        } else {
-            if (path.front() == '.') path.remove_prefix(1);
-            const std::size_t end = std::min(path.find_first_of(".[{"), path.size());
-            const std::string name(path.substr(0, end));
-            if (!value.is_object() || !value.contains(name)) return;
-            place_ += '.' + name;
-            walk(value[name], path.substr(end));
-            place_.resize(length);
-        }
+    static std::optional<std::uint32_t> there(std::uint32_t number) {
+        return number == kNone ? std::nullopt : std::optional(number);
+    }
+    static std::optional<std::uint32_t> below(std::uint32_t number, std::size_t count) {
+        return number < count ? std::optional(number) : std::nullopt;
     }
 
-    void replace(Json& value) {
-        const auto& joints = skeleton_.joint_of_node;
-        if (value.is_number()) {
-            const double number = value.get<double>();
-            if (number == -1.0) return;  // VRM 0.x: none
-            if (number >= 0.0 && number < static_cast<double>(joints.size()) && number == std::floor(number)) {
-                const std::uint32_t joint = joints[static_cast<std::size_t>(number)];
-                if (joint != kNone) {
-                    value = joint;
-                    return;
-                }
-                report_.warn("node of an extension is outside the chosen scene, null in its place", place_);
-                value = nullptr;
-                return;
-            }
+    [[nodiscard]] std::optional<std::uint32_t> mesh_of(std::uint32_t source) const {
+        const auto mesh = mesh_of_source_.find(source);
+        return mesh == mesh_of_source_.end() ? std::nullopt : std::optional(mesh->second);
+    }
+
+    [[nodiscard]] std::optional<std::uint32_t> target_of(std::uint32_t mesh, std::uint32_t target) const {
+        return below(target, scene_.meshes[mesh].targets.size());
+    }
+
+    /// A texture that begins with the image; a new one if there is none, because a file keeps images in textures.
+    std::optional<std::uint32_t> texture_with(std::uint32_t image) {
+        if (image >= scene_.images.size()) return std::nullopt;
+        for (std::uint32_t number = 0; number < scene_.textures.size(); ++number) {
+            const auto& images = scene_.textures[number].images;
+            if (!images.empty() && images.front() == image) return number;
         }
-        report_.warn("node of an extension does not exist, null in its place", place_);
-        value = nullptr;
+        Texture& texture = scene_.textures.emplace_back();
+        texture.name = scene_.images[image].name;
+        texture.images.push_back(image);
+        return static_cast<std::uint32_t>(scene_.textures.size() - 1);
     }
 
     const Skeleton& skeleton_;
-    Report& report_;
-    std::string place_;
+    const MeshesOfNode& meshes_;
+    Scene& scene_;
+    std::map<std::uint32_t, std::uint32_t> mesh_of_source_;  ///< the first mesh that a glTF mesh became
 };
 
 class ExtensionKeeper {
 public:
-    ExtensionKeeper(const Document& document, const Skeleton& skeleton)
-        : document_(document), renumberer_(skeleton, document.report) {}
+    ExtensionKeeper(const Document& document, const Skeleton& skeleton, const MeshesOfNode& meshes, Scene& scene)
+        : document_(document), numbers_(document, skeleton, meshes, scene) {}
 
     /// The extensions of the root or of a node as JSON text, or empty.
     /// \param are_instances_made  the node's instances are joints already
@@ -280,19 +260,36 @@ public:
         if (are_instances_made) kept.erase(std::string(kInstancing));
         for (auto extension = kept.begin(); extension != kept.end();) {
             const std::string at_extension = here + '.' + key(extension.key());
+            if (place.empty() && extension.key() == kVariants) {
+                document_.report.warn("extension left out, primitives do not keep the mappings to its variants: " +
+                                          quote(extension.key()),
+                                      at_extension);
+                extension = kept.erase(extension);
+                continue;
+            }
             if (extension.key() == kInstancing && !place.empty() && !keep_instances(*extension, at_extension)) {
                 extension = kept.erase(extension);
                 continue;
             }
             if (const std::string message = kept_message(extension.key()); !message.empty())
                 document_.report.warn(message, at_extension);
-            renumberer_.renumber(extension.key(), extension.value(), at_extension);
             ++extension;
         }
-        return kept.empty() ? std::string() : kept.dump();
+        return kept.empty() ? std::string() : renumbered(kept, place);
     }
 
 private:
+    std::string renumbered(const Json& kept, const std::string& place) {
+        const auto host = place.empty() ? extensions::Host::root : extensions::Host::node;
+        const auto made = extensions::renumber_extensions(kept.dump(), host, std::ref(numbers_));
+        if (!made) fail(place, "the extensions are nested too deep");
+        for (const std::string& gone : made->gone) {
+            document_.report.warn("an extension names what is not there: its entry is left out",
+                                  (place.empty() ? "extensions." : place + ".extensions.") + gone);
+        }
+        return made->json;
+    }
+
     /// False, which is said, if the instances are faulty.
     bool keep_instances(Json& extension, const std::string& place) {
         try {
@@ -306,13 +303,13 @@ private:
     }
 
     const Document& document_;
-    Renumberer renumberer_;
+    SceneNumbers numbers_;
 };
 
 }  // namespace
 
-void keep_extensions(const Document& document, const Skeleton& skeleton, Scene& scene) {
-    ExtensionKeeper keeper(document, skeleton);
+void keep_extensions(const Document& document, const Skeleton& skeleton, const MeshesOfNode& meshes, Scene& scene) {
+    ExtensionKeeper keeper(document, skeleton, meshes, scene);
     scene.extensions = keeper.keep(document.json, {}, false);
     for (std::size_t joint = 0; joint < scene.joints.size(); ++joint) {
         if (skeleton.instance_of_joint[joint] != kNone) continue;

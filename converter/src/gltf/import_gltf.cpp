@@ -42,10 +42,10 @@ Scene import(std::vector<std::byte> bytes, ReadableFolders folders, const GltfOp
     report_extensions(root, report);
     const Skeleton skeleton = import_skeleton(document, options, scene);
     report_left_out(document, skeleton);
-    keep_extensions(document, skeleton, scene);
     import_images(document, options.embed_images, scene);
     import_materials(document, scene);
     const MeshesOfNode meshes = import_meshes(document, skeleton, scene);
+    keep_extensions(document, skeleton, meshes, scene);
     import_animations(document, skeleton, meshes, scene);
     keep_members(document, skeleton, scene);
     scene.source_extras = extras_text(root);

@@ -61,9 +61,10 @@ void import_images(const Document& document, bool embed, Scene& scene);
 void import_animations(const Document& document, const Skeleton& skeleton, const MeshesOfNode& meshes, Scene& scene);
 
 /// Keeps the extensions of the root and of the nodes that became joints, as JSON, in Scene::extensions and
-/// Joint::extensions. Where an extension is known to hold node numbers they become joint numbers; null stands for a
-/// node that has no joint, with a warning. What is only kept is named in the report.
-void keep_extensions(const Document& document, const Skeleton& skeleton, Scene& scene);
+/// Joint::extensions. Numbers whose meaning is known (bendy/extensions/references.def) become those of the Scene; an
+/// entry whose thing is not there is left out, with a warning. Textures are added for images that only an extension
+/// names. What is only kept is named in the report.
+void keep_extensions(const Document& document, const Skeleton& skeleton, const MeshesOfNode& meshes, Scene& scene);
 
 /// Fills `more` of the scene's joints, materials, textures and clips, and of its root: what the file says of them that
 /// no field holds, and the names and extras of skins, cameras, samplers and images with those that use them.

@@ -14,7 +14,9 @@
 #include <bendy/format/document.h>
 #include <bendy/format/file.h>
 
+#include <functional>
 #include <limits>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -108,26 +110,83 @@ Json write_scene(const Scene& scene, const ObjectView& object, Json roots, Repor
     return written;
 }
 
+/// The numbers that things of the Scene have in the document.
+class DocumentNumbers {
+public:
+    explicit DocumentNumbers(const Scene& scene) : scene_(scene), carried_(scene.joints.size(), kNone) {
+        for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+            const std::uint32_t joint = scene.meshes[mesh].joint;
+            if (joint != kNone && carried_[joint] == kNone) carried_[joint] = mesh;
+        }
+    }
+
+    /// glTF meshes have numbers once they are written.
+    void set_meshes(const gltf_out::ExportedMeshes& meshes, const Json& nodes) {
+        for (const std::uint32_t node : meshes.node_of_mesh)
+            meshes_.push_back(node == kNone ? kNone : nodes[node]["mesh"].get<std::uint32_t>());
+    }
+
+    std::optional<std::uint32_t> operator()(extensions::Thing thing, std::uint32_t number, std::uint32_t owner) const {
+        switch (thing) {
+            case extensions::Thing::joint:
+                return below(number, scene_.joints.size());
+            case extensions::Thing::mesh:
+                return number < meshes_.size() && meshes_[number] != kNone ? std::optional(meshes_[number])
+                                                                           : std::nullopt;
+            case extensions::Thing::target_of_joint:
+                return owner < carried_.size() ? target_of(carried_[owner], number) : std::nullopt;
+            case extensions::Thing::target_of_mesh:
+                return target_of(owner, number);
+            case extensions::Thing::material:
+            case extensions::Thing::rows_of_materials:
+                return below(number, scene_.materials.size());
+            case extensions::Thing::texture:
+                return below(number, scene_.textures.size());
+            case extensions::Thing::image:
+                if (number >= scene_.textures.size() || scene_.textures[number].images.empty()) return std::nullopt;
+                return scene_.textures[number].images.front();
+            case extensions::Thing::element:
+                break;
+        }
+        return std::nullopt;
+    }
+
+private:
+    static std::optional<std::uint32_t> below(std::uint32_t number, std::size_t count) {
+        return number < count ? std::optional(number) : std::nullopt;
+    }
+
+    [[nodiscard]] std::optional<std::uint32_t> target_of(std::uint32_t mesh, std::uint32_t target) const {
+        return mesh < scene_.meshes.size() ? below(target, scene_.meshes[mesh].targets.size()) : std::nullopt;
+    }
+
+    const Scene& scene_;
+    std::vector<std::uint32_t> carried_;  ///< by joint: the first mesh that it carries
+    std::vector<std::uint32_t> meshes_;   ///< by mesh: the glTF mesh
+};
+
 GltfAsset write(const Scene& scene, const ObjectView& object, const std::filesystem::path& buffer_file,
                 Report& report) {
     Json root{{"asset", write_asset(scene, report)}, {"scene", 0}};
     Buffer buffer;
-    Json nodes = gltf_out::export_nodes(scene, report);
+    DocumentNumbers numbers(scene);
+    Json nodes = gltf_out::export_nodes(scene, std::ref(numbers), report);
     Json roots = gltf_out::root_nodes(scene);
     const std::vector<Json> node_members = read_node_members(scene, report);
     gltf_out::ExportedMeshes meshes = gltf_out::export_meshes(scene, node_members, nodes, roots, buffer, report);
+    numbers.set_meshes(meshes, nodes);
     gltf_out::export_instances(nodes, buffer, report);
     add_node_members(node_members, root, nodes, report);
     gltf_out::ExportedAnimations animations = gltf_out::export_animations(scene, meshes.node_of_mesh, buffer, report);
     add_list(root, "animations", std::move(animations.animations));
-    gltf_out::export_materials(scene, root, buffer, report);
+    gltf_out::export_materials(scene, std::ref(numbers), root, buffer, report);
     add_list(root, "meshes", std::move(meshes.meshes));
     add_list(root, "skins", std::move(meshes.skins));
     add_list(root, "nodes", std::move(nodes));
     root["scenes"].push_back(write_scene(scene, object, std::move(roots), report));
     if (!scene.levels.empty()) report.warn("levels of detail left out: glTF has no place for them");
     gltf_out::add_extras(root, scene.source_extras, "HEAD/EXTR", report);
-    gltf_out::add_extensions(root, scene.extensions, "HEAD/EXTN", report);
+    gltf_out::add_extensions(root, scene.extensions, extensions::Host::root, std::ref(numbers), "HEAD/EXTN", report);
     gltf_out::add_members(root, gltf_out::read_members(scene.source_more, "HEAD/MORE", report), gltf::Element::root,
                           "HEAD/MORE", report);
     gltf_out::export_curves(scene, animations.animation_of_clip, meshes.node_of_mesh, root, buffer, report);

@@ -38,7 +38,8 @@ const char* alpha_name(AlphaMode mode) {
     return mode == AlphaMode::mask ? "MASK" : mode == AlphaMode::blend ? "BLEND" : "OPAQUE";
 }
 
-Json write_material(const Material& material, const std::string& place, Report& report) {
+Json write_material(const Material& material, const extensions::NewNumber& numbers, const std::string& place,
+                    Report& report) {
     const Material usual;
     Json written = Json::object();
     if (!material.name.empty()) written["name"] = material.name;
@@ -73,7 +74,7 @@ Json write_material(const Material& material, const std::string& place, Report& 
         written["alphaMode"] = alpha_name(material.alpha_mode);
     if (material.double_sided) written["doubleSided"] = true;
     add_extras(written, material.extras, place, report);
-    add_extensions(written, material.extensions, place, report);
+    add_extensions(written, material.extensions, extensions::Host::material, numbers, place, report);
     if (material.unlit) written["extensions"]["KHR_materials_unlit"] = Json::object();
     add_members(written, read_members(material.more, place, report), gltf::Element::material, place, report);
     return written;
@@ -110,14 +111,15 @@ const char* extension_of(const std::string& media_type) {
 
 class MaterialExporter {
 public:
-    MaterialExporter(const Scene& scene, Json& root, Buffer& buffer, Report& report)
-        : scene_(scene), root_(root), buffer_(buffer), report_(report) {}
+    MaterialExporter(const Scene& scene, const extensions::NewNumber& numbers, Json& root, Buffer& buffer,
+                     Report& report)
+        : scene_(scene), numbers_(numbers), root_(root), buffer_(buffer), report_(report) {}
 
     void run() {
         for (std::size_t i = 0; i < scene_.images.size(); ++i) root_["images"].push_back(write_image(i));
         for (std::size_t i = 0; i < scene_.textures.size(); ++i) root_["textures"].push_back(write_texture(i));
         for (std::size_t i = 0; i < scene_.materials.size(); ++i)
-            root_["materials"].push_back(write_material(scene_.materials[i], at("materials", i), report_));
+            root_["materials"].push_back(write_material(scene_.materials[i], numbers_, at("materials", i), report_));
     }
 
 private:
@@ -188,6 +190,7 @@ private:
     }
 
     const Scene& scene_;
+    const extensions::NewNumber& numbers_;
     Json& root_;
     Buffer& buffer_;
     Report& report_;
@@ -196,8 +199,9 @@ private:
 
 }  // namespace
 
-void export_materials(const Scene& scene, Json& root, Buffer& buffer, Report& report) {
-    MaterialExporter(scene, root, buffer, report).run();
+void export_materials(const Scene& scene, const extensions::NewNumber& numbers, Json& root, Buffer& buffer,
+                      Report& report) {
+    MaterialExporter(scene, numbers, root, buffer, report).run();
 }
 
 }  // namespace bendy::converter::gltf_out

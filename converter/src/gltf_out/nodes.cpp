@@ -131,21 +131,26 @@ void add_extras(Json& object, const std::string& extras, const std::string& plac
     add_json(object, "extras", extras, place, report);
 }
 
-void add_extensions(Json& object, const std::string& extensions, const std::string& place, Report& report) {
-    add_json(object, "extensions", extensions, place, report);
-    if (const auto found = object.find("extensions"); found != object.end() && !found->is_object()) {
-        report.warn("extensions left out, they are no JSON object", place);
-        object.erase(found);
-    } else if (found != object.end()) {
-        for (const char* name : kWithSourceNumbers) {
-            if (found->erase(name) != 0)
-                report.warn(std::string("extension left out, numbers in it are the source's: ") + name, place);
-        }
-        if (found->empty()) object.erase(found);
+void add_extensions(Json& object, const std::string& extensions, extensions::Host host,
+                    const extensions::NewNumber& numbers, const std::string& place, Report& report) {
+    if (extensions.empty()) return;
+    const auto renumbered = extensions::renumber_extensions(extensions, host, numbers);
+    if (!renumbered) return report.warn("extensions left out, they are not a JSON object", place);
+    for (const std::string& gone : renumbered->gone)
+        report.warn("an extension names what is not there: its entry is left out", place + '.' + gone);
+    for (const std::string& name : renumbered->unknown)
+        report.warn("extension of which the meaning of numbers is not known, written as it is: " + quote(name), place);
+    add_json(object, "extensions", renumbered->json, place, report);
+    const auto found = object.find("extensions");
+    if (found == object.end()) return;
+    for (const char* name : kWithSourceNumbers) {
+        if (found->erase(name) != 0)
+            report.warn(std::string("extension left out, numbers in it are the source's: ") + name, place);
     }
+    if (found->empty()) object.erase(found);
 }
 
-Json export_nodes(const Scene& scene, Report& report) {
+Json export_nodes(const Scene& scene, const extensions::NewNumber& numbers, Report& report) {
     const std::vector<bool> moved = find_moved(scene);
     Json nodes = Json::array();
     for (std::size_t i = 0; i < scene.joints.size(); ++i) {
@@ -163,7 +168,7 @@ Json export_nodes(const Scene& scene, Report& report) {
             node["matrix"] = matrix_of(joint.rest);
         }
         add_extras(node, joint.extras, place, report);
-        add_extensions(node, joint.extensions, place, report);
+        add_extensions(node, joint.extensions, extensions::Host::node, numbers, place, report);
         nodes.push_back(std::move(node));
         if (joint.parent != kNone) nodes[joint.parent]["children"].push_back(i);
     }

@@ -6,6 +6,7 @@
 
 #include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>
+#include <bendy/extensions/renumber_extensions.h>
 
 #include <cstdint>
 #include <span>
@@ -27,11 +28,12 @@ void add_members(Json& object, const Json& more, gltf::Element element, const st
 
 /// The author's own JSON as a member of `object`; what is no JSON is named in the report.
 void add_extras(Json& object, const std::string& extras, const std::string& place, Report& report);
-/// Extensions that were kept as they came.
-void add_extensions(Json& object, const std::string& extensions, const std::string& place, Report& report);
+/// Extensions that were kept, with the numbers that glTF's arrays have. \param host  what `object` is
+void add_extensions(Json& object, const std::string& extensions, extensions::Host host,
+                    const extensions::NewNumber& numbers, const std::string& place, Report& report);
 
 /// One node for each joint, of the same number, with its rest transform.
-Json export_nodes(const Scene& scene, Report& report);
+Json export_nodes(const Scene& scene, const extensions::NewNumber& numbers, Report& report);
 
 /// The roots, in order.
 Json root_nodes(const Scene& scene);
@@ -73,6 +75,7 @@ float shift_of(const Clip& clip);
 std::uint32_t add_times(const std::vector<float>& times, float shift, Buffer& buffer);
 
 /// Writes materials, textures, samplers and images, all with the scene's numbers, into the document `root`.
-void export_materials(const Scene& scene, Json& root, Buffer& buffer, Report& report);
+void export_materials(const Scene& scene, const extensions::NewNumber& numbers, Json& root, Buffer& buffer,
+                      Report& report);
 
 }  // namespace bendy::converter::gltf_out

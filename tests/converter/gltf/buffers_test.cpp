@@ -63,7 +63,7 @@ TEST(GltfBuffers, WhatIsNoFileBesideTheSourceIsRefused) {
     };
     EXPECT_EQ(refused("none.bin"), "file not found: 'none.bin'");
     const std::string too_long(300, 'a');
-    EXPECT_EQ(refused(too_long), "cannot read file '" + too_long + "': File name too long");
+    EXPECT_EQ(refused(too_long).rfind("no file can have the name 'aaa", 0), 0u);
     EXPECT_EQ(refused("http://example.invalid/x.bin"),
               "only files beside the source and data URIs are read, not 'http://example.invalid/x.bin'");
     const auto is_outside = [&](const std::string& uri) {

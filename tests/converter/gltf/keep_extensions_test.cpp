@@ -32,16 +32,64 @@ TEST(GltfKeptExtensions, KnownNodeNumbersBecomeJointNumbers) {
     gltf.add_node({{"name", "here"}});
     gltf.json["scenes"] = {{{"nodes", {1}}}};
     gltf.json["extensions"]["VRMC_springBone"] = {
-        {"colliders", {{{"node", 1}}, {{"node", 0}}, {{"node", 7}}, {{"node", "x"}}}},
-        {"springs", {{{"center", 1}, {"joints", {{{"node", 1.0}}}}}}}};
+        {"colliders", {{{"node", 0}}, {{"node", 1}}, {{"node", 7}}, {{"node", "x"}}}},
+        {"colliderGroups", {{{"colliders", {0, 2}}}, {{"colliders", {1, 3}}}}},
+        {"springs",
+         {{{"center", 1}, {"joints", {{{"node", 1.0}}}}, {"colliderGroups", {0, 1}}}, {{"joints", {{{"node", 0}}}}}}}};
     gltf.json["extensions"]["VRM"] = {{"firstPerson", {{"firstPersonBone", -1}}}};
     const Import import = gltf.import();
     const Json kept = Json::parse(import->extensions);
-    EXPECT_EQ(kept["VRMC_springBone"]["colliders"].dump(), R"([{"node":0},{"node":null},{"node":null},{"node":null}])");
-    EXPECT_EQ(kept["VRMC_springBone"]["springs"].dump(), R"([{"center":0,"joints":[{"node":0}]}])");
+    EXPECT_EQ(kept["VRMC_springBone"].dump(),
+              R"({"colliderGroups":[{"colliders":[0]}],"colliders":[{"node":0}],)"
+              R"("springs":[{"center":0,"colliderGroups":[0],"joints":[{"node":0}]}]})");
     EXPECT_EQ(kept["VRM"]["firstPerson"]["firstPersonBone"], -1);
-    EXPECT_EQ(import.warned("outside the chosen scene, null in its place"), 1u);
-    EXPECT_EQ(import.warned("does not exist, null in its place"), 2u);
+    // Three colliders, what names them in the groups, the first group in the spring, and the joint of the second
+    // spring.
+    EXPECT_EQ(import.warned("names what is not there: its entry is left out"), 8u);
+}
+
+TEST(GltfKeptExtensions, NumbersOfMeshesImagesAndMaterialsAreTheScenes) {
+    Gltf gltf = make_triangle();
+    gltf.json["meshes"].push_back(gltf.json["meshes"][0]);  // nothing draws it
+    gltf.json["nodes"][0]["mesh"] = 1;
+    gltf.json["images"] = {{{"uri", "a.png"}}, {{"uri", "b.png"}, {"name", "Thumbnail"}}};
+    gltf.json["textures"] = {{{"source", 0}}};
+    gltf.json["materials"] = {Json::object()};
+    gltf.json["extensions"]["VRM"] = {
+        {"firstPerson", {{"meshAnnotations", {{{"mesh", 0}, {"firstPersonFlag", "Auto"}}, {{"mesh", 1}}}}}},
+        {"materialProperties",
+         {{{"name", "a"}, {"textureProperties", {{"_MainTex", 0}, {"_BumpMap", 9}}}}, {{"name", "b"}}}},
+        {"meta", {{"texture", 3}}}};
+    gltf.json["extensions"]["VRMC_vrm"] = {{"meta", {{"thumbnailImage", 1}}}};
+    const Import import = gltf.import();
+    const Json kept = Json::parse(import->extensions);
+    EXPECT_EQ(kept["VRM"].dump(),
+              R"({"firstPerson":{"meshAnnotations":[{"mesh":0}]},)"
+              R"("materialProperties":[{"name":"a","textureProperties":{"_MainTex":0}}],"meta":{"texture":-1}})");
+    EXPECT_EQ(kept["VRMC_vrm"].dump(), R"({"meta":{"thumbnailImage":1}})");
+    ASSERT_EQ(import->textures.size(), 2u);
+    EXPECT_EQ(import->textures[1].name, "Thumbnail");
+    EXPECT_EQ(import->textures[1].images, std::vector<std::uint32_t>{1});
+}
+
+TEST(GltfKeptExtensions, VariantsWithoutTheirMappingsAreLeftOut) {
+    Gltf gltf = make_triangle();
+    gltf.json["extensions"]["KHR_materials_variants"] = {{"variants", {{{"name", "red"}}}}};
+    const Import import = gltf.import();
+    EXPECT_EQ(import->extensions, "");
+    EXPECT_EQ(import.warned("primitives do not keep the mappings to its variants: 'KHR_materials_variants'"), 1u);
+}
+
+TEST(GltfKeptExtensions, AnExtensionWithoutWhatItIsAboutIsLeftOut) {
+    Gltf gltf;
+    gltf.add_node({{"name", "elsewhere"}});
+    gltf.add_node(
+        {{"extensions",
+          {{"MSFT_lod", {{"ids", {0}}}}, {"VRMC_node_constraint", {{"constraint", {{"roll", {{"source", 0}}}}}}}}}});
+    gltf.json["scenes"] = {{{"nodes", {1}}}};
+    const Import import = gltf.import();
+    EXPECT_EQ(import->joints[0].extensions, "");
+    EXPECT_EQ(import.warned("names what is not there"), 2u);
 }
 
 TEST(GltfKeptExtensions, WhatIsNoObjectIsLeftOut) {

@@ -14,7 +14,7 @@ namespace BENDY_PUBLIC bendy {
 enum class LinkProblem : std::uint8_t {
     empty,
     scheme,   ///< data, or another scheme than `file`
-    no_name,  ///< holds a NUL; on Windows also: is not UTF-8
+    no_name,  ///< holds a NUL, or the system refuses it as too long; on Windows also: is not UTF-8
     outside,  ///< of the folders
 };
 

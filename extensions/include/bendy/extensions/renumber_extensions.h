@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// glTF extensions that are kept as JSON (EXTN), and the numbers in them: references.def.
+namespace bendy::extensions {
+
+/// What a number in an extension means.
+enum class Thing : std::uint8_t {
+    joint,            ///< in glTF: a node
+    mesh,             ///< VECT; in glTF: a mesh
+    target_of_joint,  ///< a morph target of the mesh that the joint carries
+    target_of_mesh,   ///< a morph target of a mesh
+    material,
+    texture,
+    image,              ///< in a bendy file the texture that has the image; in glTF: an image
+    element,            ///< of an array of the same extension
+    rows_of_materials,  ///< no number: an array with an element for each material
+};
+
+/// Whose `extensions` it is.
+enum class Host : std::uint8_t { root, node, material };
+
+/// The new number of a thing, or nothing if it is not there. \param owner  of targets: the number of the joint or mesh
+using NewNumber = std::function<std::optional<std::uint32_t>(Thing thing, std::uint32_t number, std::uint32_t owner)>;
+
+struct Renumbered {
+    std::string json;  ///< an object, or empty if no extension is left; the very same text if no number has changed
+    std::vector<std::string> gone;     ///< what was taken out: "VRM.humanoid.humanBones[3].node"
+    std::vector<std::string> unknown;  ///< with whole numbers whose meaning is not known; not of materials
+};
+
+/// Puts the new numbers into extensions, and takes out the entries whose things are not there any more. Of a material
+/// also the texture of each "...Texture": {"index": ...}, whatever the extension. \param json  an object of extensions
+/// by name. Nothing if it is no such object, or is nested deeper than 128 levels
+std::optional<Renumbered> renumber_extensions(std::string_view json, Host host, const NewNumber& now);
+
+/// True if the meaning of all numbers in an extension of that name is known.
+bool is_known(std::string_view name);
+
+}  // namespace bendy::extensions
