@@ -25,6 +25,27 @@ std::vector<bool> find_bound_joints(const Scene& scene) {
     return bound;
 }
 
+namespace {
+
+/// By joint: whether it moves vertices, or one below it does. All where nothing is moved.
+std::vector<bool> find_moving_joints(const Scene& scene) {
+    std::vector<bool> moves(scene.joints.size());
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.influences == 0 && mesh.joint != kNone) moves[mesh.joint] = true;
+        for (std::size_t n = 0; n < mesh.bones.size(); ++n) {
+            if (mesh.weights[n] > 0.0f) moves[mesh.palette.joints[mesh.bones[n]]] = true;
+        }
+    }
+    if (std::find(moves.begin(), moves.end(), true) == moves.end()) return std::vector<bool>(moves.size(), true);
+    for (std::size_t joint = moves.size(); joint-- > 0;) {
+        const std::uint32_t parent = scene.joints[joint].parent;
+        if (moves[joint] && parent != kNone) moves[parent] = true;
+    }
+    return moves;
+}
+
+}  // namespace
+
 std::vector<std::vector<std::uint32_t>> list_children(const Scene& scene, const std::vector<bool>& chosen) {
     std::vector<std::vector<std::uint32_t>> children(scene.joints.size());
     for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
@@ -79,7 +100,8 @@ std::optional<glm::dvec3> find_mesh_end(const Scene& scene, const RestFrames& re
 
 struct Candidate {
     std::uint32_t joint = kNone;
-    std::uint32_t order = 0;  ///< the least is the best: sure names first, then those near the root
+    std::uint32_t order =
+        0;  ///< the least is the best: joints that move vertices first, then sure names, then those near the root
 };
 
 class Finder {
@@ -87,13 +109,15 @@ public:
     Finder(const Scene& scene, const RestFrames& rest, const std::vector<bool>& chosen)
         : scene_(scene), rest_(rest), children_(list_children(scene, chosen)) {
         names_.resize(scene.joints.size());
+        const std::vector<bool> moves = find_moving_joints(scene);
         for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
             if (!chosen[joint]) continue;
             names_[joint] = read_bone_name(scene.joints[joint].name);
             if (!names_[joint]) continue;
             constexpr std::uint32_t kPerRank = 1u << 24;
+            const std::uint32_t order = names_[joint]->rank * kPerRank + std::min(rest.depth(joint), kPerRank - 1);
             list(names_[joint]->part, names_[joint]->side)
-                .push_back({joint, names_[joint]->rank * kPerRank + std::min(rest.depth(joint), kPerRank - 1)});
+                .push_back({joint, order + (moves[joint] ? 0 : 4 * kPerRank)});
         }
         for (auto& of_part : lists_) {
             for (auto& of_side : of_part) {

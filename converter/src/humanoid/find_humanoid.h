@@ -60,8 +60,8 @@ std::optional<glm::dvec3> end_of(const NamedHumanoid& found, const RestFrames& r
 void find_mesh_ends(const Scene& scene, const RestFrames& rest, NamedHumanoid& found);
 
 /// Looks for limbs, spine and head by name. A limb's bones lie below one another, other joints may be between. Of
-/// several fitting joints the one nearest the root counts.
-/// \param chosen  by joint: only these are looked at
+/// several fitting joints one that moves vertices, or has such below it, counts before a control, and of these the one
+/// nearest the root. \param chosen  by joint: only these are looked at
 NamedHumanoid find_humanoid(const Scene& scene, const RestFrames& rest, const std::vector<bool>& chosen);
 
 struct ShapedHumanoid {

@@ -479,6 +479,23 @@ TEST(AutoRig, AnArmMayEndWithItsMesh) {
     EXPECT_TRUE(is_hinge(rigged.constraint("leftLowerArm")));
 }
 
+TEST(AutoRig, AControlWithABonesNameIsNotTheBone) {
+    HumanoidGltf character;
+    character.add("HEAD", "", {0, 2, 0});  // nearer the root than the head, and moves nothing
+    Scene scene = *character.build().import();
+    for (const char* end : {"head", "leftHand", "rightHand", "leftToes", "rightToes"}) {
+        Mesh mesh;
+        mesh.joint = joint_named(scene, end);
+        mesh.positions.assign({{0, 0, 0}, {0.01f, 0, 0}, {0, 0.01f, 0}});
+        mesh.submeshes.push_back({Topology::triangles, kNone, {0, 1, 2}});
+        scene.meshes.push_back(std::move(mesh));
+    }
+    const Rigged rigged = rig(std::move(scene));
+    EXPECT_EQ(rigged.scene.chains.size(), 6u);
+    EXPECT_EQ(rigged.limited(), 20u);
+    EXPECT_TRUE(rigged.scene.joints[rigged.joint("HEAD")].constraints.empty());
+}
+
 TEST(AutoRig, StrangeScalesCrashNothing) {
     for (const double scale : {0.0, -1.0, 1e30, 1e-30}) {
         Gltf gltf = HumanoidGltf().build();
