@@ -3,6 +3,7 @@
 #include "failure.h"
 #include "parts.h"
 #include "pointer.h"
+#include "primitive.h"
 
 #include <algorithm>
 #include <array>
@@ -301,8 +302,12 @@ public:
         add_unused("samplers", "samplers that no texture uses");
         const Json& meshes = array_of(root_, "meshes");
         for (std::size_t i = 0; i < meshes.size(); ++i) {
-            if (used_["meshes"][i])
-                lose_list(meshes[i], "primitives", Element::primitive, "primitives", at("meshes", i));
+            if (!used_["meshes"][i]) continue;
+            const Json& primitives = array_of(meshes[i], "primitives");
+            for (std::size_t p = 0; p < primitives.size(); ++p) {
+                lose_members(without_target_names(primitives[p]), Element::primitive, "primitives",
+                             at("meshes", i) + '.' + at("primitives", p), losses_);
+            }
         }
         const Json& animations = array_of(root_, "animations");
         for (std::size_t i = 0; i < animations.size(); ++i) {

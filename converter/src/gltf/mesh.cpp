@@ -116,6 +116,7 @@ public:
         for (const tinygltf::Primitive& primitive : source_.primitives) {
             target_count_ = std::max(target_count_, primitive.targets.size());
         }
+        name_targets();
         for (std::size_t p = 0; p < source_.primitives.size(); ++p) add_primitive(p);
         for (Template& entry : templates_) finish(entry.mesh);
         return std::move(templates_);
@@ -131,6 +132,27 @@ private:
         std::size_t count = 0;
         std::vector<std::uint32_t> draco_indices;
     };
+
+    /// The specification's notes put names into the mesh's extras; UniVRM and UnityGLTF write them into those of its
+    /// primitives, perhaps of all of them.
+    void name_targets() {
+        document_.budget.take(target_count_, sizeof(std::string), place_);
+        names_ = target_names(json_, target_count_);
+        for (std::size_t p = 0; p < source_.primitives.size(); ++p) {
+            const std::vector<std::string> said =
+                target_names(json_["primitives"][p], source_.primitives[p].targets.size());
+            std::uint64_t other = 0;
+            for (std::size_t t = 0; t < said.size(); ++t) {
+                if (names_[t].empty()) names_[t] = said[t];
+                if (!said[t].empty() && said[t] != names_[t]) ++other;
+            }
+            if (other > 0) {
+                document_.report.warn(
+                    "name of a morph target left out: the mesh or an earlier primitive gives another one",
+                    place_ + '.' + at("primitives", p) + ".extras.targetNames", other);
+            }
+        }
+    }
 
     void add_primitive(std::size_t p) {
         const tinygltf::Primitive& primitive = source_.primitives[p];
@@ -189,12 +211,7 @@ private:
         trim_influences(mesh);
         document_.budget.take(target_count_, sizeof(MorphTarget), place_);
         mesh.targets.resize(target_count_);
-        const Json* extras = find(json_, "extras");
-        const Json* names = extras != nullptr && extras->is_object() ? find(*extras, "targetNames") : nullptr;
-        if (names == nullptr || !names->is_array()) return;
-        for (std::size_t t = 0; t < std::min(target_count_, names->size()); ++t) {
-            if ((*names)[t].is_string()) mesh.targets[t].name = (*names)[t].get<std::string>();
-        }
+        for (std::size_t t = 0; t < target_count_; ++t) mesh.targets[t].name = names_[t];
     }
 
     const Document& document_;
@@ -203,6 +220,7 @@ private:
     std::string place_;
     bool skinned_;
     std::size_t target_count_ = 0;
+    std::vector<std::string> names_;  ///< of the targets
     std::map<MeshLayout, std::size_t> groups_;
     std::map<Source, Placed> placed_;
     std::vector<Template> templates_;

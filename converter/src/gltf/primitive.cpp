@@ -323,6 +323,35 @@ std::vector<std::uint32_t> read_sequence(const Document& document, const Json& j
 
 }  // namespace
 
+namespace {
+
+/// Null if there is no such array.
+const Json* names_in(const Json& owner) {
+    const Json* extras = find(owner, "extras");
+    const Json* names = extras != nullptr && extras->is_object() ? find(*extras, "targetNames") : nullptr;
+    return names != nullptr && names->is_array() ? names : nullptr;
+}
+
+}  // namespace
+
+std::vector<std::string> target_names(const Json& owner, std::size_t count) {
+    std::vector<std::string> names(count);
+    const Json* said = names_in(owner);
+    for (std::size_t t = 0; said != nullptr && t < std::min(count, said->size()); ++t) {
+        if ((*said)[t].is_string()) names[t] = (*said)[t].get<std::string>();
+    }
+    return names;
+}
+
+Json without_target_names(const Json& primitive) {
+    Json rest = primitive;
+    const Json* said = names_in(primitive);
+    if (said == nullptr || Json(target_names(primitive, array_of(primitive, "targets").size())) != *said) return rest;
+    rest["extras"].erase("targetNames");
+    if (rest["extras"].empty()) rest.erase("extras");
+    return rest;
+}
+
 bool has_positions(const tinygltf::Primitive& primitive, const Json& json) {
     if (primitive.attributes.count("POSITION") > 0) return true;
     const Json* draco = find_draco(json);

@@ -32,4 +32,11 @@ Submesh read_submesh(const Document& document, const tinygltf::Primitive& primit
                      std::size_t vertex_count, const std::vector<std::uint32_t>& draco_indices,
                      const std::string& place);
 
+/// The names that the `extras.targetNames` of a mesh or a primitive gives its first `count` morph targets; empty where
+/// it gives none.
+std::vector<std::string> target_names(const Json& owner, std::size_t count);
+
+/// The primitive without the names that target_names gives, if those are all it has.
+Json without_target_names(const Json& primitive);
+
 }  // namespace bendy::converter::gltf

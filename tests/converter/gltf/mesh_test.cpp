@@ -311,6 +311,47 @@ TEST(GltfMesh, MorphTargetsWithNamesAndRestWeights) {
     EXPECT_EQ(import->meshes.at(1).targets[1].rest_weight, 2.0f);
 }
 
+/// As UniVRM and UnityGLTF write them.
+TEST(GltfMesh, NamesOfTargetsInPrimitives) {
+    Gltf gltf = make_morph();
+    gltf.json["meshes"][0]["primitives"].push_back(gltf.primitive());
+    gltf.primitive(0, 0)["extras"]["targetNames"] = {"Smile", "Blink"};
+    gltf.primitive(0, 1)["extras"]["targetNames"] = {"Smile", "Blink"};
+    const Import import = gltf.import();
+    const auto& targets = import->meshes.at(0).targets;
+    ASSERT_EQ(targets.size(), 2u);
+    EXPECT_EQ(targets[0].name, "Smile");
+    EXPECT_EQ(targets[1].name, "Blink");
+    EXPECT_TRUE(import.report.warnings().empty());
+}
+
+TEST(GltfMesh, NamesOfTargetsThatDifferAreSaid) {
+    Gltf gltf = make_morph();
+    gltf.json["meshes"][0]["primitives"].push_back(gltf.primitive());
+    gltf.json["meshes"][0]["extras"]["targetNames"] = {"Smile"};
+    gltf.primitive(0, 0)["extras"]["targetNames"] = {"Grin", "Blink"};
+    gltf.primitive(0, 1)["extras"]["targetNames"] = {"Smile", "Wink"};
+    const Import import = gltf.import();
+    const auto& targets = import->meshes.at(0).targets;
+    ASSERT_EQ(targets.size(), 2u);
+    EXPECT_EQ(targets[0].name, "Smile");
+    EXPECT_EQ(targets[1].name, "Blink");
+    EXPECT_EQ(import.warned("name of a morph target left out: the mesh or an earlier primitive gives another one"), 2u);
+}
+
+TEST(GltfMesh, NamesOfTargetsThatAreNoStringsAreLeftOut) {
+    Gltf gltf = make_morph();
+    gltf.primitive()["extras"] = {{"targetNames", {"Smile", 5, "Blink"}}};
+    const Import import = gltf.import();
+    EXPECT_EQ(import->meshes.at(0).targets.at(0).name, "Smile");
+    EXPECT_EQ(import->meshes.at(0).targets.at(1).name, "");
+    EXPECT_EQ(import.warned("extras of primitives left out"), 1u);
+    gltf.primitive()["extras"] = {{"targetNames", {"Smile"}}, {"tool", "own"}};
+    EXPECT_EQ(gltf.import().warned("extras of primitives left out"), 1u);
+    gltf.primitive()["extras"] = {{"targetNames", "Smile"}};
+    EXPECT_EQ(gltf.import()->meshes.at(0).targets.at(0).name, "");
+}
+
 TEST(GltfMesh, MergedPrimitivesFillMissingDisplacementsWithZeros) {
     Gltf gltf = make_morph();
     Json second = {{"attributes", {{"POSITION", gltf.add_positions(3)}}},
