@@ -10,6 +10,7 @@
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
 #include <bendy/format/read_record.h>
+#include <bendy/format/readable_folders.h>
 #include <bendy/format/records.h>
 
 #include <CLI/Error.hpp>
@@ -18,7 +19,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <charconv>
 #include <iostream>
 #include <system_error>
 
@@ -72,8 +72,7 @@ public:
     }
     bool string(string_t& text) override {
         if (depth_ == 2 && member_ == "asset" && field_ == "generator") generator = text;
-        if (depth_ == 3 && member_ == "buffers" && field_ == "uri" && !text.starts_with("data:"))
-            buffers.push_back(text);
+        if (depth_ == 3 && member_ == "buffers" && field_ == "uri" && !is_data_uri(text)) buffers.push_back(text);
         return true;
     }
     bool start_object(std::size_t /*size*/) override { return ++depth_ != 0; }
@@ -138,22 +137,6 @@ std::string_view generator_of_x_file(std::string_view text) {
     return rest.starts_with(kComment) ? rest.substr(kComment.size()) : std::string_view();
 }
 
-/// %20 as a space.
-std::string decoded(std::string_view uri) {
-    std::string text;
-    for (std::size_t at = 0; at < uri.size(); ++at) {
-        unsigned byte = 0;
-        const char* digits = uri.data() + at + 1;
-        if (uri[at] == '%' && uri.size() - at > 2 && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
-            text += static_cast<char>(byte);
-            at += 2;
-        } else {
-            text += uri[at];
-        }
-    }
-    return text;
-}
-
 std::string utf8(const fs::path& path) {
     const std::u8string text = path.u8string();
     return {text.begin(), text.end()};
@@ -167,7 +150,11 @@ bool refers_to(const fs::path& file, const fs::path& other) {
     const std::string_view text = as_text(mapped->bytes());
     if (text.starts_with(kXFile)) return text.find('"' + name + '"') != std::string_view::npos;
     const auto buffers = read_asset(mapped->bytes()).buffers;
-    return std::any_of(buffers.begin(), buffers.end(), [&](const std::string& uri) { return decoded(uri) == name; });
+    const auto is_other = [&](const std::string& uri) {
+        const auto meant = linked_file(uri, {});
+        return meant && *meant == other.filename();
+    };
+    return std::any_of(buffers.begin(), buffers.end(), is_other);
 }
 
 bool is_picture(std::string_view suffix) {

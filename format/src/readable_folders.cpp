@@ -32,11 +32,25 @@ std::optional<std::string> percent_decoded(std::string_view text) {
     return decoded;
 }
 
+/// Exporters on Windows write backslashes, and browsers read them as slashes.
+std::string with_slashes(std::string_view uri) {
+    std::string text(uri);
+    std::replace(text.begin(), text.end(), '\\', '/');
+    return text;
+}
+
+/// `scheme` in small letters; a URI's may be in any case.
+bool has_scheme(std::string_view uri, std::string_view scheme) {
+    const auto is_same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
+    return uri.size() >= scheme.size() &&
+           std::equal(scheme.begin(), scheme.end(), uri.begin(), [&](char b, char a) { return is_same(a, b); });
+}
+
 /// A URI without its scheme, to be decoded: what it names as a file.
 Result<std::string_view, LinkProblem> name_in(std::string_view uri) {
     constexpr std::string_view kFile = "file://";
     if (uri.empty()) return LinkProblem::empty;
-    if (uri.starts_with(kFile)) {
+    if (has_scheme(uri, kFile)) {
         uri.remove_prefix(kFile.size());
         const bool has_drive = uri.size() > 2 && uri[0] == '/' && uri[2] == ':';
         if (has_drive) uri.remove_prefix(1);
@@ -87,8 +101,14 @@ fs::path folder_of(const fs::path& file) {
 
 }  // namespace
 
+bool is_data_uri(std::string_view uri) {
+    return has_scheme(uri, "data:");
+}
+
 Result<fs::path, LinkProblem> linked_file(std::string_view uri, const fs::path& folder) {
-    const auto name = name_in(uri);
+    const std::string text = is_data_uri(uri) ? std::string() : with_slashes(uri);
+    if (text.empty()) return uri.empty() ? LinkProblem::empty : LinkProblem::scheme;
+    const auto name = name_in(text);
     if (!name) return name.error();
     return path_of(percent_decoded(*name).value_or(std::string(*name)), folder);
 }
@@ -110,7 +130,8 @@ ReadableFolders ReadableFolders::of(const fs::path& file, const fs::path& root) 
 Result<fs::path, LinkProblem> ReadableFolders::find(std::string_view uri) const {
     const auto decoded = linked_file(uri, start_);
     if (!decoded) return decoded.error();
-    const auto literal = path_of(*name_in(uri), start_);  // names with %20 in them exist
+    const auto name = name_in(uri);  // names with %20 in them exist, and some with a backslash
+    const auto literal = name ? path_of(*name, start_) : Result<fs::path, LinkProblem>(name.error());
     std::error_code ignored;
     if (literal && *literal != *decoded && hold(*literal) && fs::exists(*literal, ignored) &&
         !(hold(*decoded) && fs::exists(*decoded, ignored))) {

@@ -64,12 +64,23 @@ TEST_F(MoveLinks, InOneFolderStayAsTheyAre) {
     EXPECT_TRUE(warned("linked image does not exist: 'gone.png'"));
 }
 
+TEST_F(MoveLinks, HaveForwardSlashes) {
+    make("textures/a b.png");
+    EXPECT_EQ(moved("textures\\a b.png", "m.gltf", "m.bendy"), "textures/a%20b.png");
+    EXPECT_TRUE(report_.warnings().empty());
+    EXPECT_EQ(moved("..\\gone.png", "in/m.gltf", "in/m.bendy"), "../gone.png");
+    EXPECT_TRUE(warned("leads out of the output's folder"));
+    EXPECT_EQ(moved("\\nowhere\\at\\all.png", "m.gltf", "m.bendy"), "\\nowhere\\at\\all.png");
+}
+
 TEST_F(MoveLinks, OfOtherKindsStayAsTheyAre) {
     for (const char* uri : {"https://example.org/a.png", "http://example.org/a.png", "/nowhere/at/all.png",
                             "file:///nowhere/at/all.png"}) {
         EXPECT_EQ(moved(uri, "lk/a.x", "a.bendy"), uri);
         EXPECT_FALSE(warned("does not exist")) << uri;
     }
+    for (const char* uri : {"file:///C:/all.png", "FILE:///C:/all.png"})
+        EXPECT_EQ(moved(uri, "lk/a.x", "a.bendy"), uri);
 }
 
 TEST_F(MoveLinks, AreLookedForOnlyWhereFilesMayBeRead) {

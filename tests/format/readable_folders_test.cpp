@@ -51,9 +51,10 @@ TEST_F(Folders, HoldTheFilesBesideTheSourceAndBelow) {
     make("in/real%20name.bin");
     const ReadableFolders folders = ReadableFolders::of(at("in/a.gltf"));
     for (const char* uri : {"a b.bin", "a%20b.bin", "./sub/deep/c.bin", "sub/../a%20b.bin", "sub/../../in/a b.bin",
-                            "100%.bin", "real%20name.bin"}) {
+                            "100%.bin", "real%20name.bin", ".\\sub\\deep/c.bin", "sub\\..\\a%20b.bin"}) {
         EXPECT_EQ(problem(folders, uri), std::nullopt) << uri;
     }
+    EXPECT_EQ(problem(folders, "FILE:\\\\" + at("in/sub/deep/c.bin").generic_string()), std::nullopt);
     EXPECT_EQ(problem(folders, "file://" + at("in/sub/deep/c.bin").generic_string()), std::nullopt);
     EXPECT_EQ(problem(folders, at("in/sub/deep/c.bin").generic_string()), std::nullopt);
     EXPECT_EQ(*folders.find("a%20b.bin"), at("in/a b.bin"));
@@ -66,9 +67,26 @@ TEST_F(Folders, HoldNothingElse) {
     make("secret");
     make("in2/secret");  // a folder whose name begins in the same way
     const ReadableFolders folders = ReadableFolders::of(at("in/a.gltf"));
-    for (const char* uri :
-         {"../secret", "..%2fsecret", "%2e%2e/secret", "..%2Fin2/secret", "sub/../../secret", "./.././secret",
-          "../in2/secret", "..", "/etc/hostname", "file:///etc/hostname", "//server/share/file", "../none"}) {
+    for (const char* uri : {"../secret",
+                            "..%2fsecret",
+                            "%2e%2e/secret",
+                            "..%2Fin2/secret",
+                            "sub/../../secret",
+                            "./.././secret",
+                            "../in2/secret",
+                            "..\\secret",
+                            "..\\in2\\secret",
+                            "sub\\..\\..\\secret",
+                            "..%2f\\secret",
+                            "\\etc\\hostname",
+                            "\\\\server\\share\\file",
+                            "FILE:///etc/hostname",
+                            "file:\\\\\\etc\\hostname",
+                            "..",
+                            "/etc/hostname",
+                            "file:///etc/hostname",
+                            "//server/share/file",
+                            "../none"}) {
         EXPECT_EQ(problem(folders, uri), LinkProblem::outside) << uri;
     }
     EXPECT_EQ(problem(folders, at("secret").generic_string()), LinkProblem::outside);
@@ -76,9 +94,10 @@ TEST_F(Folders, HoldNothingElse) {
     EXPECT_EQ(problem(folders, "http://example.invalid/a.bin"), LinkProblem::scheme);
     EXPECT_EQ(problem(folders, "data:,abc"), LinkProblem::scheme);
     EXPECT_EQ(problem(folders, "a%00.bin"), LinkProblem::no_name);
+    EXPECT_EQ(problem(folders, "DATA:,a\\b"), LinkProblem::scheme);
+    EXPECT_EQ(problem(folders, "HTTP:\\\\example.invalid\\a.bin"), LinkProblem::scheme);
 #ifdef _WIN32
-    EXPECT_EQ(problem(folders, "..\\secret"), LinkProblem::outside);
-    EXPECT_EQ(problem(folders, "\\\\server\\share\\file"), LinkProblem::outside);
+    EXPECT_EQ(problem(folders, "..%5csecret"), LinkProblem::outside);
 #endif
 }
 
@@ -140,6 +159,17 @@ TEST_F(Folders, AreNoneWithoutASource) {
     EXPECT_EQ(problem(ReadableFolders(at("in")), "../b.bin"), LinkProblem::outside);
 }
 
+#ifndef _WIN32
+TEST_F(Folders, MayHoldNamesWithABackslash) {
+    make("in/a\\b.bin");
+    const ReadableFolders folders = ReadableFolders::of(at("in/a.gltf"));
+    EXPECT_EQ(*folders.find("a\\b.bin"), at("in/a\\b.bin"));
+    EXPECT_EQ(*folders.find("a%5Cb.bin"), at("in/a\\b.bin"));
+    make("in/a/b.bin");
+    EXPECT_EQ(*folders.find("a\\b.bin"), at("in/a/b.bin"));
+}
+#endif
+
 TEST(LinkedFile, IsWhatTheUriMeans) {
     const fs::path folder = "models";
     EXPECT_EQ(*linked_file("a%20b.png", folder), folder / "a b.png");
@@ -148,6 +178,9 @@ TEST(LinkedFile, IsWhatTheUriMeans) {
     EXPECT_EQ(*linked_file("/pictures/a%20b.png", folder), fs::path("/pictures/a b.png"));
     EXPECT_EQ(*linked_file("file:///pictures/a.png", folder), fs::path("/pictures/a.png"));
     EXPECT_EQ(*linked_file("file:///C:/a.png", "."), fs::path("C:/a.png"));
+    EXPECT_EQ(*linked_file("textures\\a%20b.png", folder), folder / "textures/a b.png");
+    EXPECT_EQ(*linked_file("textures\\a:b.png", folder), folder / "textures/a:b.png");
+    EXPECT_EQ(linked_file("Data:,", folder).error(), LinkProblem::scheme);
     EXPECT_EQ(linked_file("data:image/png;base64,AAAA", folder).error(), LinkProblem::scheme);
     EXPECT_EQ(linked_file("https://example.org/a.png", folder).error(), LinkProblem::scheme);
     EXPECT_EQ(linked_file("", folder).error(), LinkProblem::empty);

@@ -64,7 +64,10 @@ std::vector<std::byte> decode_base64(std::string_view text, const std::string& p
 
 bool ends_with_base64(std::string_view header) {
     constexpr std::string_view kMark = ";base64";
-    return header.size() >= kMark.size() && header.substr(header.size() - kMark.size()) == kMark;
+    if (header.size() < kMark.size()) return false;
+    const std::string_view end = header.substr(header.size() - kMark.size());
+    return std::equal(kMark.begin(), kMark.end(), end.begin(),
+                      [](char mark, char c) { return (c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c) == mark; });
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
@@ -72,13 +75,6 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
     auto canonical = std::filesystem::weakly_canonical(std::filesystem::absolute(folder, error), error);
     return error ? folder.lexically_normal() : canonical;
-}
-
-std::string uri_between(const std::filesystem::path& folder, const std::filesystem::path& file) {
-    const std::filesystem::path target = folder_of(file) / file.filename();
-    const std::filesystem::path relative = target.lexically_relative(folder);
-    if (!relative.empty()) return uri_of(relative);
-    return "file:///" + target.root_name().generic_string() + uri_of(target.root_directory() / target.relative_path());
 }
 
 /// "cannot read file 'a.bin': Too many open files". \param number  the system's; 0: it did not say
@@ -125,12 +121,8 @@ std::optional<std::string> percent_decode(std::string_view text) {
     return decoded;
 }
 
-bool is_data_uri(std::string_view uri) {
-    return uri.substr(0, 5) == "data:";
-}
-
 DataUri decode_data_uri(std::string_view uri, const std::string& place) {
-    uri.remove_prefix(5);
+    uri.remove_prefix(uri.find(':') + 1);
     const std::size_t comma = uri.find(',');
     if (comma == std::string_view::npos) fail(place, "data URI without a comma");
     const std::string_view header = uri.substr(0, comma);
@@ -181,6 +173,13 @@ std::string uri_of(const std::filesystem::path& path) {
     return uri;
 }
 
+std::string uri_between(const std::filesystem::path& from, const std::filesystem::path& file) {
+    const std::filesystem::path target = folder_of(file) / file.filename();
+    const std::filesystem::path relative = target.lexically_relative(folder_of(from));
+    if (!relative.empty()) return uri_of(relative);
+    return "file:///" + target.root_name().generic_string() + uri_of(target.root_directory() / target.relative_path());
+}
+
 std::string to_utf8(std::string_view text) {
     if (is_utf8(text)) return std::string(text);
     std::string converted;
@@ -199,10 +198,13 @@ void move_links(Scene& scene, const std::filesystem::path& from, const std::file
         const auto file = linked_file(image.uri, from.parent_path());
         if (!file) continue;  // http, for one
         std::error_code ignored;
-        if (const auto found = folders.find(image.uri); found && !std::filesystem::exists(*found, ignored))
+        const auto found = folders.find(image.uri);
+        if (found && !std::filesystem::exists(*found, ignored))
             report.warn("linked image does not exist: " + quote(image.uri), place);
-        const bool is_relative = !image.uri.starts_with('/') && !image.uri.starts_with("file:");
-        if (source != folder && is_relative) image.uri = uri_between(folder, *file);
+        const bool has_scheme = image.uri.find(':') < image.uri.find_first_of("/\\");
+        const bool is_relative = !has_scheme && !linked_file(image.uri, {})->has_root_path();
+        const bool has_backslash = image.uri.find('\\') != std::string::npos;  // which a URI cannot contain
+        if ((source != folder || has_backslash) && is_relative) image.uri = uri_between(to, found ? *found : *file);
         if (image.uri.starts_with("../")) {
             report.warn("link to an image leads out of the output's folder, where the viewer does not follow it: " +
                             quote(image.uri),

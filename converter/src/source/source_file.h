@@ -47,14 +47,12 @@ std::vector<std::byte> read_file(const std::filesystem::path& file, const std::s
 /// Nothing if a `%` is not followed by two hexadecimal digits.
 std::optional<std::string> percent_decode(std::string_view text);
 
-bool is_data_uri(std::string_view uri);
-
 struct DataUri {
     std::string media_type;  ///< without parameters, may be empty
     std::vector<std::byte> bytes;
 };
 
-/// RFC 2397, base64 or percent-encoded. Fails at `place`.
+/// RFC 2397, base64 or percent-encoded; `uri` must be a data URI. Fails at `place`.
 DataUri decode_data_uri(std::string_view uri, const std::string& place);
 
 /// The folders of bytes that come without a file: of a name without a folder in front, only the root.
@@ -71,9 +69,9 @@ std::string to_utf8(std::string_view text);
 
 /// Makes the links to images, which are relative to the folder of `from`, relative to that of `to`: percent-encoded,
 /// with forward slashes; as a file URI where no relative path leads there (another drive). Between files of one folder
-/// links stay as they are, as do those with a scheme and absolute ones. Warns of links to files that do not exist, and
-/// of those that lead out of the folder, which the viewer does not follow; files that `folders`, those of `from`, do
-/// not allow are not looked for.
+/// links without a backslash stay as they are, as do all with a scheme and absolute ones. Warns of links to files that
+/// do not exist, and of those that lead out of the folder, which the viewer does not follow; files that `folders`,
+/// those of `from`, do not allow are not looked for.
 void move_links(Scene& scene, const std::filesystem::path& from, const std::filesystem::path& to,
                 const ReadableFolders& folders, Report& report);
 

@@ -33,6 +33,7 @@ void expect_point(const Import& import) {
 TEST(GltfBuffers, DataUris) {
     const std::string base64 = "AACAPwAAAEAAAEBA";
     expect_point(import_buffer(R"({"byteLength":12,"uri":"data:application/octet-stream;base64,)" + base64 + "\"}"));
+    expect_point(import_buffer(R"({"byteLength":12,"uri":"DATA:Application/Octet-Stream;Base64,)" + base64 + "\"}"));
     expect_point(import_buffer(R"({"byteLength":12,"uri":"data:;base64,AACAPwAA%41EAAAEBA"})"));
     expect_point(import_buffer(R"({"byteLength":12,"uri":"data:,%00%00%80%3f%00%00%00%40%00%00%40%40"})"));
     EXPECT_EQ(import_buffer(R"({"byteLength":12,"uri":"data:;base64,AA!A"})").message(),
@@ -51,6 +52,7 @@ TEST(GltfBuffers, FilesBesideTheSource) {
     expect_point(import_buffer(R"({"byteLength":12,"uri":"a b.bin"})"));
     expect_point(import_buffer(R"({"byteLength":12,"uri":"sub/c.bin"})"));
     expect_point(import_buffer(R"({"byteLength":12,"uri":"sub/../sub/c.bin"})"));
+    expect_point(import_buffer(R"({"byteLength":12,"uri":".\\sub\\c.bin"})"));
     expect_point(import_buffer("{\"byteLength\":12,\"uri\":\"\xe2\x9d\xa4.bin\"}"));
     expect_point(import_buffer(R"({"byteLength":12,"uri":"100%.bin"})"));
 }

@@ -133,11 +133,14 @@ TEST(GltfMaterial, ImagesFromFilesAndDataUris) {
 
 TEST(GltfMaterial, ImagesOutsideTheFolderStayLinks) {
     Gltf gltf = make_triangle();
-    gltf.json["images"] = {{{"uri", "../bendy_secret.png"}}, {{"uri", "in.png"}}};
+    gltf.json["images"] = {{{"uri", "../bendy_secret.png"}}, {{"uri", ".\\in.png"}}, {{"uri", "..\\bendy_secret.png"}}};
     write_file("in.png", kPng);
     const Import import = gltf.import();
-    ASSERT_EQ(import->images.size(), 2u);
+    ASSERT_EQ(import->images.size(), 3u);
     EXPECT_EQ(import->images[0].uri, "../bendy_secret.png");
+    EXPECT_TRUE(import->images[2].bytes.empty());
+    EXPECT_EQ(import.warned("image could not be read ('..\\bendy_secret.png' is outside the source's folder: --root "),
+              1u);
     EXPECT_TRUE(import->images[0].bytes.empty());
     EXPECT_EQ(import.warned("image could not be read ('../bendy_secret.png' is outside the source's folder: --root "),
               1u);

@@ -99,7 +99,7 @@ export class Textures {
     const texture = await this.#decode(source);
     if (texture === null) return null;
     const uri = source.images.find((image) => image.uri !== null)?.uri;
-    texture.name = source.name || (uri && !uri.startsWith('data:') ? uri : '');
+    texture.name = source.name || (uri && !/^data:/i.test(uri) ? uri : '');
     texture.flipY = false;
     texture.magFilter = (filters[source.magFilter] ?? LinearFilter) as MagnificationTextureFilter;
     texture.minFilter = (filters[source.minFilter] ?? LinearMipmapLinearFilter) as MinificationTextureFilter;

@@ -18,8 +18,12 @@ enum class LinkProblem : std::uint8_t {
     outside,  ///< of the folders
 };
 
+/// Whether a URI is the data itself, `data:...`; the scheme's letters may be of any case.
+bool is_data_uri(std::string_view uri);
+
 /// The file that a URI means: a relative one is relative to `folder`, file URIs and absolute paths are taken as they
-/// are. Percent-encoding is decoded where it is valid. The file need not exist and may be anywhere.
+/// are. A backslash is read as a slash, as browsers do. Percent-encoding is decoded where it is valid. The file need
+/// not exist and may be anywhere.
 Result<std::filesystem::path, LinkProblem> linked_file(std::string_view uri, const std::filesystem::path& folder);
 
 /// Decides which files the names in a file may open: those in the file's own folder and the folders below it, and in
