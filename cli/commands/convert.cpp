@@ -118,6 +118,7 @@ std::vector<std::byte> convert_and_write(const ConvertArguments& arguments, Name
     Outputs outputs(arguments.force);
     outputs.reads(input);
     if (!arguments.rig.empty()) outputs.reads(arguments.rig);
+    if (!arguments.texture.empty()) outputs.reads(arguments.texture);
     outputs.writes(arguments.output, named, Content::binary);
     check_suffix({"convert", "--output", {".bendy"}}, input, arguments.output);
     if (!arguments.depfile.empty()) outputs.writes(arguments.depfile, NamedBy::user, Content::text);
@@ -230,10 +231,13 @@ void add_convert(CLI::App& program) {
                         "for a single input: write the files that were read as a rule for Make or Ninja");
     command->add_option("--scene", arguments->scene,
                         "the scene of a glTF file to convert, by name or number; the file's default if not given");
+    command->add_option(
+        "--texture", arguments->texture,
+        "for Quake II models: the image of the skin, in place of the one that the file names, or of none");
     command
-        ->add_option("--images", arguments->images,
-                     "for glTF and X-files; embed: copy image files into the output; link: keep them as URIs, relative "
-                     "to the output's folder")
+        ->add_option(
+            "--images", arguments->images,
+            "embed: copy image files into the output; link: keep them as URIs, relative to the output's folder")
         ->check(CLI::IsMember({"embed", "link"}))
         ->capture_default_str();
     add_root(*command, arguments->root);

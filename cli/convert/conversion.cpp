@@ -91,6 +91,7 @@ converter::ConvertOptions options_of(const ConvertArguments& arguments) {
     options.gltf.instances = arguments.instances;
     options.gltf.root = arguments.root;
     if (!arguments.rig.empty()) options.rig = arguments.rig;
+    options.texture = arguments.texture;
     options.ticks_per_second = arguments.ticks_per_second;
     options.merge_clips = arguments.merge_clips;
     options.auto_rig = arguments.auto_rig;
@@ -118,6 +119,7 @@ std::string recipe_of(const ConvertArguments& arguments) {
                                 {"instances", arguments.instances},
                                 {"root", whole(arguments.root)},
                                 {"rig", whole(arguments.rig)},
+                                {"texture", whole(arguments.texture)},
                                 {"ticks_per_second", arguments.ticks_per_second},
                                 {"merge_clips", arguments.merge_clips},
                                 {"auto_rig", arguments.auto_rig},

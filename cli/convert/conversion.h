@@ -24,6 +24,7 @@ struct ConvertArguments {
     std::filesystem::path root;  ///< see ReadableFolders; may be empty
     std::filesystem::path depfile;
     bool exact = true;
+    std::filesystem::path texture;  ///< of Quake II models; empty: as the file says
     double ticks_per_second = 0.0;  ///< of X-files; 0: as the file says
     bool merge_clips = false;
     bool auto_rig = false;

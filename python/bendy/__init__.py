@@ -340,23 +340,24 @@ def open(source, *, object=0, check_sums=True, copied=False, root=None):
 
 
 def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, skeleton="", compact=False, lod=False,
-            sort_vertices=False, images="embed", root=None, scene=None, instances=False, merge_clips=False, ticks_per_second=0.0,
-            name="source.glb", jobs=0, progress=None, overwrite=False):
+            sort_vertices=False, images="embed", root=None, scene=None, instances=False, merge_clips=False, texture=None,
+            ticks_per_second=0.0, name="source.glb", jobs=0, progress=None, overwrite=False):
     """Converts glTF, X-files, Quake II models and bendy files to a bendy file, exactly unless compact. Returns a Conversion.
 
     output: the path to write; None: nothing is written, see File.save. The other arguments are the options of `bendy convert`.
     rig: a rig file. auto_rig: propose IK chains and constraints. auto_skin, skeleton: bind meshes without a skin to bones. compact:
     True, or the largest error, "0.1mm" or "0.005%". lod: levels of detail. images: "embed" or "link". root: a folder whose files may
     be read if the source names them; else only those in the source's own folder and below it are. scene: of a glTF file, its name or
-    number. name: of a source that is bytes, in front the folder of the files that it refers to; without one, only root counts. jobs:
-    the threads that make a compact file, at most; 0: one for each processor. progress: is called with the share that is done, 0 to 1,
-    while a compact file is made; what it raises ends the call after the conversion.
+    number. texture: the image of a Quake II model's skin. name: of a source that is bytes, in front the folder of the files that it
+    refers to; without one, only root counts. jobs: the threads that make a compact file, at most; 0: one for each processor.
+    progress: is called with the share that is done, 0 to 1, while a compact file is made; what it raises ends the call after the
+    conversion.
     Raises ConversionError with the place in the source, FileNotFoundError, FileExistsError unless overwrite, ValueError.
     """
     if images not in ("embed", "link"):
         raise ValueError("images must be embed or link")
     if output is not None:
-        _claim_bendy(output, overwrite, [source, rig])
+        _claim_bendy(output, overwrite, [source, rig, texture])
     if isinstance(source, (str, _os.PathLike)):
         file, found = source, None
         _must_exist(file)
@@ -365,10 +366,12 @@ def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, s
         file = found.file or name
     if rig is not None:
         _must_exist(rig)
+    if texture is not None:
+        _must_exist(texture)
     bound = None if compact is False else "" if compact is True else compact
     made, report, sources = _bendy.convert(
         file, found, "" if output is None else output, None if scene is None else str(scene), root or "", images == "embed", instances, rig,
-        ticks_per_second, merge_clips, auto_rig, auto_skin, skeleton, bound, lod, sort_vertices, jobs, progress)
+        texture or "", ticks_per_second, merge_clips, auto_rig, auto_skin, skeleton, bound, lod, sort_vertices, jobs, progress)
     if output is not None:
         _claim_bendy(output, overwrite, sources)
         made.write(output)

@@ -64,10 +64,10 @@ std::filesystem::path in_a_folder(const std::filesystem::path& file) {
 py::tuple convert_source(const std::filesystem::path& file, const SourcePointer& source,
                          const std::filesystem::path& output, const std::optional<std::string>& scene,
                          const std::filesystem::path& root, bool embed_images, bool instances,
-                         const std::optional<std::filesystem::path>& rig, double ticks_per_second, bool merge_clips,
-                         bool auto_rig, bool auto_skin, const std::string& skeleton,
-                         const std::optional<std::string>& max_error, bool lod, bool sort_vertices, unsigned jobs,
-                         const py::object& progress) {
+                         const std::optional<std::filesystem::path>& rig, const std::filesystem::path& texture,
+                         double ticks_per_second, bool merge_clips, bool auto_rig, bool auto_skin,
+                         const std::string& skeleton, const std::optional<std::string>& max_error, bool lod,
+                         bool sort_vertices, unsigned jobs, const py::object& progress) {
     converter::ConvertOptions options;
     options.output = output;
     options.gltf.scene = scene;
@@ -75,6 +75,7 @@ py::tuple convert_source(const std::filesystem::path& file, const SourcePointer&
     options.gltf.embed_images = embed_images;
     options.gltf.instances = instances;
     options.rig = rig;
+    options.texture = texture;
     options.ticks_per_second = ticks_per_second;
     options.merge_clips = merge_clips;
     options.auto_rig = auto_rig;
@@ -391,7 +392,7 @@ py::tuple export_source(const SourcePointer& source, const std::string& format, 
 
 void bind_tools(py::module_& module) {
     module.def("convert", &convert_source, py::arg("file"), py::arg("source"), py::arg("output"), py::arg("scene"),
-               py::arg("root"), py::arg("embed_images"), py::arg("instances"), py::arg("rig"),
+               py::arg("root"), py::arg("embed_images"), py::arg("instances"), py::arg("rig"), py::arg("texture"),
                py::arg("ticks_per_second"), py::arg("merge_clips"), py::arg("auto_rig"), py::arg("auto_skin"),
                py::arg("skeleton"), py::arg("max_error"), py::arg("lod"), py::arg("sort_vertices"), py::arg("jobs"),
                py::arg("progress"), "See bendy.convert.");

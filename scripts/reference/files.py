@@ -8,6 +8,7 @@ FILES = {
     ("convert", "--depfile"): ".d",
     ("convert", "--output"): ".bendy",
     ("convert", "--rig"): ".json",
+    ("convert", "--texture"): ".png .jpg .jpeg .tga .bmp .webp",
     ("inspect", "FILE"): ".bendy",
     ("inspect", "--html"): ".html",
     ("validate", "FILE"): ".bendy",

@@ -171,6 +171,33 @@ class QuakeModels(Case):
         # The fourth frame: 3 units up, and from 0 to 2 of its own.
         self.assertEqual([round(height * 32, 4) for height in heights], [3, 5])
 
+    def test_the_skin_is_found_beside_the_model(self):
+        png = b"\x89PNG\r\n\x1a\n" + bytes(60)
+        (self.folder / "man.png").write_bytes(png)
+        (self.folder / "other.png").write_bytes(png + bytes(8))
+
+        def embedded(*options):
+            report = json.loads(self.done("convert", "man.md2", "--json", *options))
+            return [(Path(entry["file"]).name, entry["bytes"]) for entry in report["embedded"]]
+        md2_file(self.folder / "man.md2", skins=("C:\\models\\man.pcx",))
+        self.assertEqual(embedded(), [("man.png", 68)])
+        self.assertEqual(embedded("--texture", "other.png"), [("other.png", 76)])
+        self.assertEqual(embedded("--texture", "other.png", "--images", "link"), [])
+        self.assertIn(b"other.png", (self.folder / "man.bendy").read_bytes())
+        md2_file(self.folder / "man.md2", skins=())
+        self.assertEqual(embedded(), [])
+        self.assertEqual(embedded("--texture", "other.png"), [("other.png", 76)])
+        self.assertIn("file not found", self.failed("convert", "man.md2", "--texture", "none.png", file="none.png"))
+
+    def test_the_texture_of_an_x_file_is_found_beside_it(self):
+        (self.folder / "man.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(60))
+        (self.folder / "a.x").write_text(r"""xof 0303txt 0032
+            Frame F { Mesh { 3; 0;0;0;,1;0;0;,0;1;0;; 1; 3;0,1,2;; MeshMaterialList { 1; 1; 0;
+            Material { 1;1;1;1;; 0; 0;0;0;; 0;0;0;; TextureFilename { "..\\art\\man.bmp"; } } } } }""")
+        report = json.loads(self.done("convert", "a.x", "--json"))
+        self.assertEqual([Path(entry["file"]).name for entry in report["embedded"]], ["man.png"])
+        self.assertIn("Quake II models only", self.failed("convert", "a.x", "--texture", "man.png", file="a.x"))
+
     def corners(self, file, clip, seconds):
         """Of all triangles, in model space."""
         self.done("pose", file, "--clip", clip, "--time", repr(seconds), "-o", "pose.json")

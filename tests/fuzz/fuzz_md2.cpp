@@ -12,7 +12,7 @@
 // NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     bendy::converter::Report report;
-    const auto scene = bendy::converter::import_md2(std::as_bytes(std::span(data, size)), "fuzz", report);
+    const auto scene = bendy::converter::import_md2(std::as_bytes(std::span(data, size)), "fuzz", {}, report);
     if (!scene) return 0;
     const auto bytes = bendy::converter::build_chunks(*scene, "fuzz", report);
     bendy::fuzz::check(bendy::validate(bytes).empty(), "what is read makes a valid file");

@@ -2,6 +2,7 @@
 
 import json
 import os
+import struct
 
 import bendy
 import numpy
@@ -50,6 +51,23 @@ def test_files_outside_the_sources_folder(tmp_path):
     assert any("not an image" in warning["message"] for warning in made.warnings)
     bendy.open(source, root=str(tmp_path))
     bendy.convert(text.encode(), root=tmp_path, name=str(source))
+
+
+def test_the_texture_of_a_quake_model(tmp_path):
+    model = tmp_path / "man.md2"
+    corners = b"".join(struct.pack("<4B", *corner, 5) for corner in ((0, 0, 0), (0, 8, 0), (0, 0, 8)))
+    pieces = [struct.pack("<6h", 0, 0, 8, 0, 0, 8), struct.pack("<6H", 0, 1, 2, 0, 1, 2), struct.pack("<6f16s", 1, 1, 1, 0, 0, 0, b"still") + corners,
+              bytes(4)]
+    places = [68, 68]
+    for piece in pieces:
+        places.append(places[-1] + len(piece))
+    model.write_bytes(struct.pack("<4s16i", b"IDP2", 8, 8, 8, 52, 0, 3, 3, 1, 1, 1, *places) + b"".join(pieces))
+    skin = tmp_path / "skin.png"
+    skin.write_bytes(b"\x89PNG\r\n\x1a\n")
+    assert bendy.convert(model).report["embedded"] == []
+    assert [one["bytes"] for one in bendy.convert(model, texture=skin).report["embedded"]] == [8]
+    with pytest.raises(FileNotFoundError):
+        bendy.convert(model, texture=tmp_path / "none.png")
 
 
 def test_conversions_that_fail(tmp_path):

@@ -129,7 +129,7 @@ class Man(Case):
             self.skipTest("groff is not installed")
         text = run("groff", "-man", "-Tascii", "-P-c", "-P-bou", "-rLL=300n", self.folder / "man/bendy-convert.1").stdout
         self.assertRegex(text, r"bendy-convert - convert characters \(\.gltf, ")
-        self.assertRegex(text, r"\n +--images embed\|link\n +for glTF and X-files; .*Default: embed\.\n")
+        self.assertRegex(text, r"\n +--images embed\|link\n +embed: copy image files into the output; .*Default: embed\.\n")
         self.assertRegex(text, r"\n +bendy convert fox\.glb -o build/fox\.bendy\n")
 
 

@@ -135,6 +135,7 @@ Json run_convert(const Json& request, Made& made) {
     arguments.images = request.value("images", arguments.images);
     arguments.instances = request.value("instances", false);
     arguments.rig = text_of(request, "rig");
+    arguments.texture = text_of(request, "texture");
     arguments.ticks_per_second = request.value("ticksPerSecond", 0.0);
     arguments.merge_clips = request.value("mergeClips", false);
     arguments.auto_rig = request.value("autoRig", false);

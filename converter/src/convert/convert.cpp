@@ -107,6 +107,8 @@ Result<Scene, ImportError> import_source(std::optional<Buffer> source, const std
     if (!importer.takes_scene && options.gltf.scene) return ImportError{{}, "a scene can be chosen in glTF files only"};
     if (!importer.takes_ticks && options.ticks_per_second != 0.0)
         return ImportError{{}, "ticks per second can be set for X-files only"};
+    if (!importer.takes_texture && !options.texture.empty())
+        return ImportError{{}, "a texture can be set for Quake II models only"};
     auto scene = importer.import(*std::move(source), named, options, report);
     if (!scene) return scene;
     // Where images are to be embedded, a link is what could not be read: it stays what the source says.

@@ -1,5 +1,7 @@
 #include "failure.h"
 #include "quake2.h"
+#include "source/image_bytes.h"
+#include "source/named_files.h"
 #include "source/source_file.h"
 
 #include <bendy/converter/import.h>
@@ -12,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -154,9 +157,18 @@ using Places = std::vector<glm::vec3>;
 
 class Md2Importer {
 public:
-    Md2Importer(std::span<const std::byte> file, const std::string& name, Report& report)
-        : file_(file), header_(read_header(file)), name_(name), report_(report) {
+    /// \param path  of the file
+    Md2Importer(std::span<const std::byte> file, const std::filesystem::path& path, ReadableFolders folders,
+                const Md2Options& options, Report& report)
+        : file_(file),
+          path_(path),
+          header_(read_header(file)),
+          options_(options),
+          report_(report),
+          files_(std::move(folders), budget_, report) {
         budget_.add_source(file.size());
+        const std::u8string stem = path.stem().u8string();
+        name_.assign(stem.begin(), stem.end());
     }
 
     Scene run() {
@@ -186,21 +198,50 @@ private:
     /// Every skin is a material; the mesh has the first.
     void read_skins(Submesh& submesh) {
         for (std::uint32_t skin = 0; skin < header_.skins; ++skin) {
-            const std::string path = read_name(file_, header_.skins_at + skin * kSkinSize, kSkinSize);
-            Image image;
-            image.uri = uri_of(std::filesystem::path(std::u8string(path.begin(), path.end())));
-            Texture texture;
-            texture.images.push_back(skin);
-            Material material;
-            material.name = path;
-            material.metallic = 0.0f;
-            material.base_colour_texture.texture = skin;
-            scene_.images.push_back(std::move(image));
-            scene_.textures.push_back(std::move(texture));
-            scene_.materials.push_back(std::move(material));
+            const std::size_t at = header_.skins_at + skin * kSkinSize;
+            const std::string name = read_name(file_, at, kSkinSize);
+            if (skin == 0 && !options_.texture.empty()) {
+                add_material(name, given_image());
+            } else {
+                add_material(name, find_image(name, place_of(at)));
+            }
         }
-        if (header_.skins > 0) submesh.material = 0;
+        if (header_.skins == 0 && !options_.texture.empty()) add_material(name_, given_image());
+        if (!scene_.materials.empty()) submesh.material = 0;
         if (header_.skins > 1) report_.warn("further skin kept as a material that nothing uses", {}, header_.skins - 1);
+    }
+
+    void add_material(const std::string& name, Image image) {
+        image.media_type = media_type_of(image.bytes);
+        Texture texture;
+        texture.images.push_back(static_cast<std::uint32_t>(scene_.images.size()));
+        Material material;
+        material.name = name;
+        material.metallic = 0.0f;
+        material.base_colour_texture.texture = static_cast<std::uint32_t>(scene_.textures.size());
+        scene_.images.push_back(std::move(image));
+        scene_.textures.push_back(std::move(texture));
+        scene_.materials.push_back(std::move(material));
+    }
+
+    Image find_image(const std::string& name, const std::string& place) {
+        Image image;
+        if (name.empty()) return image;
+        image.uri = files_.find_texture(name);
+        if (options_.embed_images) files_.embed(image, place);
+        return image;
+    }
+
+    /// What the user wants in place of the first skin.
+    Image given_image() {
+        Image image;
+        if (options_.embed_images) {
+            files_.embed_given(image, options_.texture);
+        } else {
+            files_.check_given(options_.texture);
+            image.uri = uri_between(path_, options_.texture);
+        }
+        return image;
     }
 
     std::uint32_t read_index(std::size_t at, std::uint32_t end, const char* what) const {
@@ -364,10 +405,13 @@ private:
     }
 
     std::span<const std::byte> file_;
+    const std::filesystem::path& path_;
     Header header_;
-    const std::string& name_;
+    std::string name_;  ///< of the file, without its suffix
+    const Md2Options& options_;
     Report& report_;
     Budget budget_;
+    NamedFiles files_;
     Scene scene_;
     std::vector<std::uint32_t> vertices_;  ///< the file's vertex of each of the mesh's
     std::vector<std::uint32_t> corners_;   ///< three vertices of the file for each triangle, in our order
@@ -379,16 +423,17 @@ private:
 }  // namespace
 }  // namespace md2
 
-Result<Scene, ImportError> import_md2(std::span<const std::byte> bytes, const std::string& name, Report& report) {
-    return without_throwing<Scene>(
-        [&]() -> Result<Scene, ImportError> { return md2::Md2Importer(bytes, name, report).run(); });
+Result<Scene, ImportError> import_md2(std::span<const std::byte> bytes, const std::filesystem::path& file,
+                                      const Md2Options& options, Report& report) {
+    return without_throwing<Scene>([&]() -> Result<Scene, ImportError> {
+        return md2::Md2Importer(bytes, file, folders_of_bytes(file, options.root), options, report).run();
+    });
 }
 
-Result<Scene, ImportError> import_md2(const std::filesystem::path& file, Report& report) {
+Result<Scene, ImportError> import_md2(const std::filesystem::path& file, const Md2Options& options, Report& report) {
     return without_throwing<Scene>([&]() -> Result<Scene, ImportError> {
         const std::vector<std::byte> bytes = read_file(file, {});
-        const std::u8string stem = file.stem().u8string();
-        return import_md2(bytes, std::string(stem.begin(), stem.end()), report);
+        return md2::Md2Importer(bytes, file, ReadableFolders::of(file, options.root), options, report).run();
     });
 }
 

@@ -1,9 +1,24 @@
 #include "source/image_bytes.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 namespace bendy::converter {
+
+std::span<const ImageKind> image_kinds() {
+    static constexpr std::array<ImageKind, 10> kKinds{{{"image/png", ".png"},
+                                                       {"image/jpeg", ".jpg"},
+                                                       {"image/ktx2", ".ktx2"},
+                                                       {"image/webp", ".webp"},
+                                                       {"image/avif", ".avif"},
+                                                       {"image/gif", ".gif"},
+                                                       {"image/bmp", ".bmp"},
+                                                       {"image/vnd-ms.dds", ".dds"},
+                                                       {"", ".tga"},
+                                                       {"image/jpeg", ".jpeg"}}};
+    return kKinds;
+}
 
 std::string media_type_of(std::span<const std::byte> bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());

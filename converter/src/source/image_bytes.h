@@ -7,8 +7,18 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace bendy::converter {
+
+/// A kind of image that is known here, by its first bytes.
+struct ImageKind {
+    std::string_view media_type;  ///< empty: it has none
+    std::string_view suffix;      ///< of a file's name, with the dot
+};
+
+/// The usual suffix of each kind, and after these the others that are met.
+std::span<const ImageKind> image_kinds();
 
 /// The media type that an image's first bytes show, or empty.
 std::string media_type_of(std::span<const std::byte> bytes);

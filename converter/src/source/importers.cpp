@@ -33,22 +33,21 @@ Imported from_x(Buffer bytes, const Path& file, const ConvertOptions& options, R
 #endif
 
 #ifdef BENDY_MD2
-Imported from_md2(Buffer bytes, const Path& file, const ConvertOptions& /*options*/, Report& report) {
-    const std::u8string stem = file.stem().u8string();
-    return import_md2(bytes, std::string(stem.begin(), stem.end()), report);
+Imported from_md2(Buffer bytes, const Path& file, const ConvertOptions& options, Report& report) {
+    return import_md2(bytes, file, {options.gltf.embed_images, options.gltf.root, options.texture}, report);
 }
 #endif
 
 constexpr std::array kImporters{
-    Importer{SourceFormat::gltf, "a glTF file", "", {".gltf"}, true, false, from_gltf},
-    Importer{SourceFormat::gltf, "a glTF binary file", "glTF", {".glb", ".vrm"}, true, false, from_gltf},
+    Importer{SourceFormat::gltf, "a glTF file", "", {".gltf"}, true, false, false, from_gltf},
+    Importer{SourceFormat::gltf, "a glTF binary file", "glTF", {".glb", ".vrm"}, true, false, false, from_gltf},
 #ifdef BENDY_X_FILES
-    Importer{SourceFormat::x, "a DirectX X-file", "xof ", {".x"}, false, true, from_x},
+    Importer{SourceFormat::x, "a DirectX X-file", "xof ", {".x"}, false, true, false, from_x},
 #endif
 #ifdef BENDY_MD2
-    Importer{SourceFormat::md2, "a Quake II model", "IDP2", {".md2"}, false, false, from_md2},
+    Importer{SourceFormat::md2, "a Quake II model", "IDP2", {".md2"}, false, false, true, from_md2},
 #endif
-    Importer{SourceFormat::bendy, "a bendy file", "HEAD", {".bendy"}, false, false, from_bendy},
+    Importer{SourceFormat::bendy, "a bendy file", "HEAD", {".bendy"}, false, false, false, from_bendy},
 };
 
 }  // namespace

@@ -23,6 +23,7 @@ struct Importer {
     std::array<std::string_view, 2> suffixes = {};  ///< of file names, lower case; others are empty
     bool takes_scene = false;                       ///< has scenes to choose from
     bool takes_ticks = false;                       ///< counts its times in ticks
+    bool takes_texture = false;                     ///< has one skin, which may be in any file
     /// \param file  what the bytes are called, and beside which other files are looked for
     Result<Scene, ImportError> (*import)(std::vector<std::byte> bytes, const std::filesystem::path& file,
                                          const ConvertOptions& options, Report& report);

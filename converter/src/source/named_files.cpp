@@ -3,9 +3,25 @@
 #include "failure.h"
 #include "source/image_bytes.h"
 
+#include <algorithm>
 #include <system_error>
+#include <utility>
 
 namespace bendy::converter {
+namespace {
+
+constexpr std::uint64_t kBeginning = 64;  ///< bytes, in which an image shows its kind
+
+/// A file name as writers on Windows leave it: backslashes, doubled ones, often the whole path.
+std::filesystem::path relative_path_of(const std::string& name) {
+    std::string path = to_utf8(name);
+    std::replace(path.begin(), path.end(), '\\', '/');
+    const bool is_absolute = path.starts_with('/') || path.find(':') != std::string::npos;
+    if (is_absolute) path.erase(0, path.find_last_of("/:") + 1);
+    return std::filesystem::path(std::u8string(path.begin(), path.end())).lexically_normal();
+}
+
+}  // namespace
 
 std::filesystem::path NamedFiles::find(const std::string& uri, const std::string& place) const {
     const auto file = folders_.find(uri);
@@ -68,13 +84,62 @@ void NamedFiles::embed(Image& image, const std::string& place) {
         budget_.take(bytes.size(), 1, place);
         image.bytes.assign(bytes.begin(), bytes.end());
         image.uri.clear();
-        const std::string kind = media_type_of(bytes);
-        if (!is_image(bytes))
-            report_.warn("embedded file is not an image of a known kind: " + quote(file.filename().string()), place);
-        report_.add_embedded({file, bytes.size(), kind});
+        note_embedded(file, bytes, place);
     } catch (const Failure& failure) {
         report_.warn("image could not be read (" + failure.error.message + ')', place);
     }
+}
+
+void NamedFiles::embed_given(Image& image, const std::filesystem::path& file) {
+    try {
+        const std::span<const std::byte> bytes = read_found(file, {}, UINT64_MAX);
+        budget_.take(bytes.size(), 1, {});
+        image.bytes.assign(bytes.begin(), bytes.end());
+        note_embedded(file, image.bytes, {});
+    } catch (Failure& failure) {
+        failure.error.file = file;
+        throw;
+    }
+}
+
+void NamedFiles::check_given(const std::filesystem::path& file) {
+    try {
+        read_found(file, {}, kBeginning);
+    } catch (Failure& failure) {
+        failure.error.file = file;
+        throw;
+    }
+}
+
+void NamedFiles::note_embedded(const std::filesystem::path& file, std::span<const std::byte> bytes,
+                               const std::string& place) {
+    if (!is_image(bytes))
+        report_.warn("embedded file is not an image of a known kind: " + quote(file.filename().string()), place);
+    report_.add_embedded({file, bytes.size(), media_type_of(bytes)});
+}
+
+std::string NamedFiles::find_texture(const std::string& name) {
+    const std::filesystem::path named = relative_path_of(name);
+    std::vector<std::filesystem::path> candidates{named};
+    if (searches_left_ > 0) {
+        --searches_left_;
+        if (named.has_parent_path() && named.has_filename()) candidates.push_back(named.filename());
+        for (std::size_t i = 0, names = candidates.size(); i < names; ++i) {
+            for (const ImageKind& kind : image_kinds())
+                candidates.push_back(std::filesystem::path(candidates[i]).replace_extension(kind.suffix));
+        }
+    }
+    std::string other;  // a file that is not an image
+    for (const std::filesystem::path& candidate : candidates) {
+        std::string uri = uri_of(candidate);
+        try {
+            if (is_image(read(uri, {}, kBeginning))) return uri;
+            if (other.empty()) other = std::move(uri);
+        } catch (const Failure&) {
+            continue;  // none of that name, or not to be read
+        }
+    }
+    return other.empty() ? uri_of(named) : other;
 }
 
 }  // namespace bendy::converter

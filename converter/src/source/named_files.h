@@ -34,6 +34,17 @@ public:
     /// If the file cannot be read, the URI stays and a warning says why: a character converts without it.
     void embed(Image& image, const std::string& place);
 
+    /// As embed, of a file that the user names: it may be anywhere. Fails at no place, naming the file, if it cannot be
+    /// read.
+    void embed_given(Image& image, const std::filesystem::path& file);
+    /// Fails as embed_given does.
+    void check_given(const std::filesystem::path& file);
+
+    /// The URI of the image that an older model calls `name`: often a path of another computer, or a name from before
+    /// the image was converted. Tries the name, its last part alone, and both with the suffixes of image_kinds, and
+    /// prefers a file that begins as an image does. If there is no file, it is the URI of the name itself.
+    std::string find_texture(const std::string& name);
+
 private:
     struct Contents {
         std::vector<std::byte> bytes;  ///< all, or its first ones
@@ -41,6 +52,8 @@ private:
     };
 
     std::filesystem::path find(const std::string& uri, const std::string& place) const;
+    /// Of the bytes of a file that go into the result.
+    void note_embedded(const std::filesystem::path& file, std::span<const std::byte> bytes, const std::string& place);
     std::span<const std::byte> read_found(const std::filesystem::path& file, const std::string& place,
                                           std::uint64_t limit);
 
@@ -48,6 +61,7 @@ private:
     Budget& budget_;
     Report& report_;
     std::map<std::filesystem::path, Contents> known_;  ///< by the path without links
+    std::size_t searches_left_ = 100;                  ///< for other names than the source's; it may name millions
 };
 
 }  // namespace bendy::converter

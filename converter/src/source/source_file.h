@@ -64,6 +64,10 @@ std::string why_outside(const ReadableFolders& folders, std::string_view uri);
 /// A relative path as a URI: percent-encoded where it must be.
 std::string uri_of(const std::filesystem::path& path);
 
+/// The URI by which the file `from` refers to another: relative, or a file URI where no relative path leads there
+/// (another drive).
+std::string uri_between(const std::filesystem::path& from, const std::filesystem::path& file);
+
 /// UTF-8: text of other encodings is taken for Latin-1.
 std::string to_utf8(std::string_view text);
 

@@ -21,15 +21,6 @@ namespace {
 
 constexpr float kMostPower = 1e6f;
 
-/// A file name as writers on Windows leave it: backslashes, doubled ones, often the whole path.
-std::filesystem::path path_of(const std::string& name) {
-    std::string path = to_utf8(name);
-    std::replace(path.begin(), path.end(), '\\', '/');
-    const bool is_absolute = path.starts_with('/') || path.find(':') != std::string::npos;
-    if (is_absolute) path.erase(0, path.find_last_of("/:") + 1);
-    return std::filesystem::path(std::u8string(path.begin(), path.end())).lexically_normal();
-}
-
 class MaterialImporter {
 public:
     MaterialImporter(NamedFiles& files, bool embed_images, Scene& scene, Report& report)
@@ -58,7 +49,7 @@ private:
         const auto [known, is_new] = texture_of_.try_emplace(source.texture, number);
         if (!is_new) return known->second;
         Image image;
-        image.uri = uri_of(path_of(source.texture));
+        image.uri = files_.find_texture(source.texture);
         if (embed_images_) files_.embed(image, source.place);
         image.media_type = media_type_of(image.bytes);
         Texture texture;

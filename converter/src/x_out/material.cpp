@@ -16,17 +16,10 @@ namespace {
 
 std::string ending_of(const Image& image) {
     const std::string media_type = image.media_type.empty() ? media_type_of(image.bytes) : image.media_type;
-    constexpr std::array<std::pair<const char*, const char*>, 8> kEndings{{{"image/png", ".png"},
-                                                                           {"image/jpeg", ".jpg"},
-                                                                           {"image/ktx2", ".ktx2"},
-                                                                           {"image/webp", ".webp"},
-                                                                           {"image/avif", ".avif"},
-                                                                           {"image/gif", ".gif"},
-                                                                           {"image/bmp", ".bmp"},
-                                                                           {"image/vnd-ms.dds", ".dds"}}};
-    const auto* const found =
-        std::find_if(kEndings.begin(), kEndings.end(), [&](const auto& ending) { return media_type == ending.first; });
-    if (found != kEndings.end()) return found->second;
+    const auto kinds = image_kinds();
+    const auto found =
+        std::find_if(kinds.begin(), kinds.end(), [&](const ImageKind& kind) { return kind.media_type == media_type; });
+    if (!media_type.empty() && found != kinds.end()) return std::string(found->suffix);
     return may_be_tga(image.bytes) ? ".tga" : ".bin";
 }
 

@@ -4,14 +4,19 @@
 #include <bendy/converter/import.h>
 #include <bendy/format/document.h>
 
+#include "temporary_folder.h"
+
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -69,7 +74,7 @@ private:
 
 std::string fault_of(const std::vector<std::byte>& bytes) {
     Report report;
-    const auto scene = import_md2(bytes, "man", report);
+    const auto scene = import_md2(bytes, "man.md2", {}, report);
     if (scene) return "";
     return scene.error().place + ": " + scene.error().message;
 }
@@ -82,7 +87,7 @@ std::string fault_with(std::size_t at, std::uint32_t value, std::size_t size = 4
 }
 
 Scene import_good(std::vector<std::string> names, Report& report) {
-    auto scene = import_md2(Model(std::move(names)).bytes(), "man", report);
+    auto scene = import_md2(Model(std::move(names)).bytes(), "man.md2", {}, report);
     EXPECT_TRUE(scene) << (scene ? "" : scene.error().place + ": " + scene.error().message);
     if (!scene) return {};
     Report unheard;
@@ -169,12 +174,12 @@ TEST(ImportMd2, NormalsAreTheFiles) {
     bytes.at(first) = std::byte{52};
     bytes.at(first + 4) = std::byte{200};
     Report report;
-    const auto scene = import_md2(bytes, "man", report);
+    const auto scene = import_md2(bytes, "man.md2", {}, report);
     ASSERT_TRUE(scene);
     EXPECT_EQ(scene->meshes[0].normals[0], glm::vec3(0, 0, 1)) << "Quake's X is the front, +Z";
     EXPECT_EQ(scene->meshes[0].targets[0].normals[0], glm::vec3(0, 1, 0)) << "its Z is up";
-    ASSERT_EQ(report.warnings().size(), 2u);
-    EXPECT_EQ(report.warnings()[1].message, "number of a normal is past the table's 162, it points up");
+    ASSERT_EQ(report.warnings().size(), 3u);
+    EXPECT_EQ(report.warnings()[2].message, "number of a normal is past the table's 162, it points up");
 }
 
 TEST(ImportMd2, AxesWindingCoordinatesAndNormals) {
@@ -196,8 +201,104 @@ TEST(ImportMd2, AxesWindingCoordinatesAndNormals) {
     EXPECT_EQ(scene.images.at(0).uri, "models/man.pcx");
     EXPECT_EQ(scene.materials.at(0).base_colour_texture.texture, 0u);
     EXPECT_EQ(mesh.submeshes.at(0).material, 0u);
-    ASSERT_EQ(report.warnings().size(), 2u);
-    EXPECT_EQ(report.warnings()[0].message, "units are taken as 1/32 of a metre");
+    ASSERT_EQ(report.warnings().size(), 3u);
+    EXPECT_EQ(report.warnings()[0].message,
+              "image could not be read (the source has no folder in which to look for 'models/man.pcx': --root FOLDER "
+              "gives it one)");
+    EXPECT_EQ(report.warnings()[0].first_place, "byte 68");
+    EXPECT_EQ(report.warnings()[1].message, "units are taken as 1/32 of a metre");
+}
+
+/// A folder with a model whose skin is called `models/man.pcx`, and files of the given names beside it.
+class Md2Skins : public testing::Test {
+protected:
+    void make(const std::filesystem::path& name, std::string_view content) const {
+        std::filesystem::create_directories((folder_.path() / name).parent_path());
+        std::ofstream(folder_.path() / name, std::ios::binary) << content;
+    }
+    Image skin(const Md2Options& options = {}) {
+        const std::vector<std::byte> bytes = Model({"stand01"}).bytes();
+        make("in/man.md2", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        report_ = Report();
+        const auto scene = import_md2(folder_.path() / "in/man.md2", options, report_);
+        EXPECT_TRUE(scene);
+        return scene ? scene->images.at(0) : Image();
+    }
+    [[nodiscard]] std::string first_warning() const { return report_.warnings().front().message; }
+
+    static constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n, and so on";
+    bendy::test::TemporaryFolder folder_;
+    Report report_;
+};
+
+TEST_F(Md2Skins, AreFoundWhereTheModelIs) {
+    EXPECT_EQ(skin().uri, "models/man.pcx");
+    EXPECT_EQ(first_warning(), "image could not be read (file not found: 'man.pcx')");
+    make("in/man.pcx", "no image that is known");
+    EXPECT_EQ(skin().bytes.size(), 22u);
+    EXPECT_EQ(first_warning(), "embedded file is not an image of a known kind: 'man.pcx'");
+    make("in/man.png", kPng);
+    const Image found = skin();
+    EXPECT_EQ(found.bytes.size(), kPng.size());
+    EXPECT_EQ(found.media_type, "image/png");
+    EXPECT_EQ(found.uri, "");
+    ASSERT_EQ(report_.embedded().size(), 1u);
+    EXPECT_EQ(report_.embedded()[0].file.filename(), "man.png");
+    make("in/models/man.jpg", "\xff\xd8\xff, a JPEG image");
+    EXPECT_EQ(skin().media_type, "image/jpeg") << "the folder that the model names goes before";
+    Md2Options link;
+    link.embed_images = false;
+    EXPECT_EQ(skin(link).uri, "models/man.jpg");
+    EXPECT_TRUE(skin(link).bytes.empty());
+}
+
+TEST_F(Md2Skins, OutsideAreNotRead) {
+    make("models/man.png", kPng);
+    make("man.png", kPng);
+    EXPECT_TRUE(skin().bytes.empty());
+    Md2Options options;
+    options.root = folder_.path();
+    EXPECT_TRUE(skin(options).bytes.empty()) << "names start in the model's folder";
+}
+
+TEST_F(Md2Skins, AreTheUsersTexture) {
+    make("in/man.png", kPng);
+    make("other.png", "\x89PNG\r\n\x1a\n");
+    Md2Options options;
+    options.texture = folder_.path() / "other.png";
+    EXPECT_EQ(skin(options).bytes.size(), 8u);
+    EXPECT_EQ(report_.embedded().size(), 1u);
+    options.embed_images = false;
+    EXPECT_EQ(skin(options).uri, "../other.png");
+    options.texture = folder_.path() / "none.png";
+    for (const bool embed : {true, false}) {
+        options.embed_images = embed;
+        const auto failed = import_md2(folder_.path() / "in/man.md2", options, report_);
+        ASSERT_FALSE(failed);
+        EXPECT_EQ(failed.error().message, "file not found: 'none.png'");
+        EXPECT_EQ(failed.error().file, options.texture);
+    }
+}
+
+TEST_F(Md2Skins, OfModelsWithoutANameAreTheUsersTexture) {
+    std::vector<std::byte> bytes = Model({"stand01"}).bytes();
+    make("other.png", kPng);
+    Md2Options options;
+    options.texture = folder_.path() / "other.png";
+    const auto without = [&](std::size_t at) {  // a byte that makes it so
+        bytes.at(at) = std::byte{0};
+        return *import_md2(bytes, "man.md2", options, report_);
+    };
+    for (const std::size_t at : {std::size_t{68}, std::size_t{20}}) {  // no name, then no skin
+        const Scene scene = without(at);
+        EXPECT_EQ(scene.images.at(0).bytes.size(), kPng.size());
+        EXPECT_EQ(scene.meshes.at(0).submeshes.at(0).material, 0u);
+        EXPECT_EQ(scene.materials.at(0).base_colour_texture.texture, 0u);
+    }
+    options.texture.clear();
+    const auto plain = import_md2(bytes, "man.md2", options, report_);
+    ASSERT_TRUE(plain);
+    EXPECT_TRUE(plain->materials.empty());
 }
 
 TEST(ImportMd2, ClipsFollowTheFramesNames) {

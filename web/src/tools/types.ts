@@ -30,6 +30,8 @@ export interface ConvertOptions {
   instances?: boolean;
   /** Make one clip of clips that move different joints. */
   mergeClips?: boolean;
+  /** Of a Quake II model: the image of its skin, the name of one of the files. */
+  texture?: string;
   /** Of an X-file that states none or a wrong number: key time units per second. */
   ticksPerSecond?: number;
   /** Called now and then with the share of the work that is done, 0 to 1. What it throws rejects the promise at the end. */

@@ -20,6 +20,8 @@ struct ConvertOptions {
     GltfOptions gltf;  ///< for glTF sources, embed_images and root for others too; a scene chosen in others is an error
     /// For X-files, see XOptions; 0: as the file says. An error for other sources.
     double ticks_per_second = 0.0;
+    /// For Quake II models, see Md2Options; empty: the file's own skin. An error for other sources.
+    std::filesystem::path texture;
     /// Clips that move different properties become one, see docs/convert.md.
     bool merge_clips = false;
     /// A rig file (spec/rig.md): constraints and chains that go before what the source says.

@@ -61,15 +61,25 @@ Result<Scene, ImportError> import_x(const std::filesystem::path& file, const XOp
 Result<Scene, ImportError> import_x(std::string_view bytes, const std::filesystem::path& file, const XOptions& options,
                                     Report& report);
 
+struct Md2Options {
+    bool embed_images = true;         ///< false: images stay in their files and are referred to by URI
+    std::filesystem::path root = {};  ///< as GltfOptions::root
+    /// The image of the mesh, wherever it is, in place of the first skin that the file names, or of none. Empty: the
+    /// file's own.
+    std::filesystem::path texture = {};
+};
+
 /// Reads a Quake II model and fills a Scene: the first frame is the mesh, every other one a target of its own shape
 /// (MorphTarget::is_frame) with the frame's name, and frames that are numbered on (stand01, stand02, ...) are a clip of
 /// 10 frames a second; which clips repeat, their names say. Z up becomes Y up, the front +Z; 32 units are a metre.
-/// Normals are the table's that the file's numbers mean, the skins' names are kept as URIs. Errors name the byte.
-/// Throws nothing; every number in the result is finite and every index in range.
-Result<Scene, ImportError> import_md2(const std::filesystem::path& file, Report& report);
+/// Normals are the table's that the file's numbers mean, and every skin is a material. Errors name the byte. Throws
+/// nothing; every number in the result is finite and every index in range.
+Result<Scene, ImportError> import_md2(const std::filesystem::path& file, const Md2Options& options, Report& report);
 
-/// The same of a file's bytes. \param name  of the one joint
-Result<Scene, ImportError> import_md2(std::span<const std::byte> bytes, const std::string& name, Report& report);
+/// The same of a file's bytes. \param file  whose name the one joint has, and beside which images are looked for; a
+/// name without a folder: the bytes have none
+Result<Scene, ImportError> import_md2(std::span<const std::byte> bytes, const std::filesystem::path& file,
+                                      const Md2Options& options, Report& report);
 
 /// True when the file can be read and starts as bendy files do, whatever its name.
 bool is_bendy_file(const std::filesystem::path& file);
