@@ -15,6 +15,9 @@ using CurveProperty = std::tuple<CurveTarget, std::uint32_t, std::string_view, s
 /// The same with memory of its own, for containers that outlive the curve.
 using OwnProperty = std::tuple<CurveTarget, std::uint32_t, std::string, std::string>;
 
+/// What begins the paths of curves that move a joint's camera: glTF's cameras are kept with the joints that have them.
+inline constexpr std::string_view kCameraPath = "camera/";
+
 /// It refers to the curve's memory.
 inline CurveProperty property_of(const Curve& curve) {
     return {curve.kind, curve.target, curve.path, curve.path.empty() ? curve.name : std::string_view()};

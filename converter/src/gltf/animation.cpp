@@ -235,6 +235,17 @@ private:
         curve.components = static_cast<std::uint32_t>(components);
         curve.times = std::move(keys.times);
         curve.values = std::move(keys.values);
+        for (const std::uint32_t target : pointed.further) {
+            document_.budget.take(curve.times.size() + curve.values.size(), sizeof(float), place);
+            document_.budget.take(sizeof(Curve) + curve.name.size() + curve.path.size(), 1, place);
+            Curve copy = curve;
+            copy.target = target;
+            add_curve(std::move(copy), place, clip);
+        }
+        add_curve(std::move(curve), place, clip);
+    }
+
+    void add_curve(Curve curve, const std::string& place, Clip& clip) {
         const auto [known, is_new] = curve_of_.emplace(own_property_of(curve), clip.curves.size());
         if (is_new) {
             clip.curves.push_back(std::move(curve));

@@ -1,5 +1,6 @@
 #include "pointer.h"
 
+#include "curve_property.h"
 #include "failure.h"
 
 #include <algorithm>
@@ -87,7 +88,7 @@ PointerReader::PointerReader(const Document& document, const Skeleton& skeleton,
       skeleton_(skeleton),
       weighted_(array_of(document.json, "meshes").size()),
       first_mesh_(weighted_.size(), kNone),
-      camera_joint_(array_of(document.json, "cameras").size(), kNone) {
+      camera_joints_(array_of(document.json, "cameras").size()) {
     const Json& nodes = array_of(document.json, "nodes");
     for (std::size_t node = 0; node < nodes.size(); ++node) {
         const Json* mesh = find(nodes[node], "mesh");
@@ -100,8 +101,7 @@ PointerReader::PointerReader(const Document& document, const Skeleton& skeleton,
         if (skeleton.instance_of_joint[joint] != kNone) continue;
         const Json* camera = find(nodes[skeleton.node_of_joint[joint]], "camera");
         if (camera == nullptr) continue;
-        std::uint32_t& first = camera_joint_[camera->get<std::size_t>()];
-        if (first == kNone) first = static_cast<std::uint32_t>(joint);
+        camera_joints_[camera->get<std::size_t>()].push_back(static_cast<std::uint32_t>(joint));
     }
 }
 
@@ -120,8 +120,12 @@ PointedProperty PointerReader::read(std::string_view pointer, const std::string&
     if (list == "nodes") return read_node(index, property);
     if (list == "meshes") return read_mesh(index, property);
     // Cameras are kept with the joints that have them, and numbered by these when they are written.
-    if (camera_joint_[index] == kNone) return left_out("channels of cameras that no node of the scene has");
-    return curve_of(CurveTarget::joint, camera_joint_[index], "camera/" + std::string(property));
+    const std::vector<std::uint32_t>& joints = camera_joints_[index];
+    if (joints.empty()) return left_out("channels of cameras that no node of the scene has");
+    PointedProperty pointed =
+        curve_of(CurveTarget::joint, joints.front(), std::string(kCameraPath) + std::string(property));
+    pointed.further = std::span(joints).subspan(1);
+    return pointed;
 }
 
 PointedProperty PointerReader::read_node(std::size_t node, std::string_view property) const {

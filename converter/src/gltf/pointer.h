@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,7 @@ struct PointedProperty {
     std::size_t element = 0;
     CurveTarget target_kind = CurveTarget::nothing;
     std::uint32_t target = kNone;
+    std::span<const std::uint32_t> further;  ///< other targets with the same property, the reader's
     std::string property;
     std::string why;
 };
@@ -61,7 +63,7 @@ private:
     const Skeleton& skeleton_;
     std::vector<std::vector<std::size_t>> weighted_;  ///< by mesh
     std::vector<std::uint32_t> first_mesh_;           ///< by mesh of the file: the first of the scene's, or kNone
-    std::vector<std::uint32_t> camera_joint_;         ///< by camera: the first joint that has it, or kNone
+    std::vector<std::vector<std::uint32_t>> camera_joints_;  ///< by camera: those that have it
 };
 
 }  // namespace bendy::converter::gltf

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -92,15 +92,12 @@ private:
         shift_ = shift_of(clip);
         if (shift_ > 0.0f) report_.warn("clip that begins before 0 s is moved to begin there", place);
         add_markers(clip, animation, place);
-        weights_of_node_.clear();
+        weighted_nodes_.clear();
         for (std::size_t t = 0; t < clip.tracks.size(); ++t) {
             check_rotations(clip.tracks[t], place + "." + at("tracks", t));
-            add_channel(clip.tracks[t], animation, place);
+            add_channel(clip.tracks[t], animation);
         }
-        std::vector<Track> frames;  // they are looked at again until the clip is written
-        frames.reserve(clip.plays.size());
-        for (const Play& play : clip.plays)
-            add_channel(frames.emplace_back(weights_track(scene_, clip, play)), animation, place);
+        for (const Play& play : clip.plays) add_channel(weights_track(scene_, clip, play), animation);
         if (const ClipSpan span = span_of(clip); span != span_of_keys(clip)) hold(clip, span, animation, place);
         return animation;
     }
@@ -125,7 +122,7 @@ private:
         const glm::vec3& at_rest = scene_.joints[joint].rest.translation;
         for (std::size_t key = 0; key < still.times.size(); ++key)
             still.values.insert(still.values.end(), {at_rest.x, at_rest.y, at_rest.z});
-        add_channel(still, animation, place);
+        add_channel(still, animation);
         report_.warn("clip that is longer than its keys: a channel that holds joint " +
                          quoted_name(scene_.joints[joint].name, joint) + " where it rests keeps its length",
                      place);
@@ -168,16 +165,11 @@ private:
         (*extras)["markers"] = std::move(list);
     }
 
-    void add_channel(const Track& track, Json& animation, const std::string& place) {
+    void add_channel(const Track& track, Json& animation) {
         const bool is_weights = track.path == TrackPath::weights;
         const std::uint32_t node = is_weights ? node_of_mesh_[track.target] : track.target;
         if (node == kNone) return;  // of a mesh that is left out, which has been said
-        if (is_weights) {
-            const auto [same, is_new] = weights_of_node_.try_emplace(node, &track);
-            if (!is_new && (same->second->times != track.times || same->second->values != track.values))
-                report_.warn("meshes of one node have different weights: the first one's are written", place);
-            if (!is_new) return;
-        }
+        if (is_weights && !weighted_nodes_.insert(node).second) return;  // by another mesh, whose weights are the same
         Json sampler{{"input", add_times(track.times, shift_, buffer_)},
                      {"output", buffer_.add_floats(track.values, output_components(track), Buffer::Use::data, false)}};
         if (track.interpolation != Interpolation::linear)
@@ -196,12 +188,45 @@ private:
     std::span<const std::uint32_t> node_of_mesh_;
     Buffer& buffer_;
     Report& report_;
-    float shift_ = 0.0f;  ///< seconds, of the clip that is being written
-    /// The track that is written of a clip: several meshes of a node have one channel in glTF.
-    std::unordered_map<std::uint32_t, const Track*> weights_of_node_;
+    float shift_ = 0.0f;                                ///< seconds, of the clip that is being written
+    std::unordered_set<std::uint32_t> weighted_nodes_;  ///< by the clip: the meshes of a node have one channel in glTF
 };
 
 }  // namespace
+
+namespace {
+
+template <class T>
+void append_bytes(const std::vector<T>& values, std::string& to) {
+    const std::size_t count = values.size();
+    to.append(reinterpret_cast<const char*>(&count), sizeof count);
+    to.append(reinterpret_cast<const char*>(values.data()), count * sizeof(T));
+}
+
+void append_text(const std::string& text, std::string& to) {
+    append_bytes(std::vector<char>(text.begin(), text.end()), to);
+}
+
+}  // namespace
+
+void append_motion(const Curve& curve, std::size_t clip, std::string& motion) {
+    const std::vector<std::size_t> numbers{clip, static_cast<std::size_t>(curve.interpolation), curve.components};
+    append_bytes(numbers, motion);
+    append_text(curve.name, motion);
+    append_text(curve.path, motion);
+    append_bytes(curve.times, motion);
+    append_bytes(curve.values, motion);
+}
+
+void append_motion(const Track& track, std::size_t clip, std::string& motion) {
+    append_bytes(std::vector<std::size_t>{clip, static_cast<std::size_t>(track.interpolation)}, motion);
+    append_bytes(track.times, motion);
+    append_bytes(track.values, motion);
+}
+
+void append_motion(const Play& play, std::size_t clip, std::string& motion) {
+    append_bytes(std::vector<std::size_t>{clip, play.first, play.frames, play.closed ? 1U : 0U}, motion);
+}
 
 const char* interpolation_name(Interpolation interpolation) {
     switch (interpolation) {

@@ -1,5 +1,6 @@
 #include "gltf_out/curves.h"
 
+#include "curve_property.h"
 #include "failure.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 namespace bendy::converter::gltf_out {
@@ -69,12 +71,19 @@ bool open_parent(Json& root, std::string_view pointer) {
 class CurveExporter {
 public:
     CurveExporter(std::span<const std::uint32_t> node_of_mesh, Json& root, Buffer& buffer, Report& report)
-        : node_of_mesh_(node_of_mesh), root_(root), buffer_(buffer), report_(report) {}
+        : node_of_mesh_(node_of_mesh), root_(root), buffer_(buffer), report_(report) {
+        const Json& nodes = gltf::array_of(root, "nodes");
+        for (std::uint32_t node = 0; node < nodes.size(); ++node) {
+            const auto camera = nodes[node].find("camera");
+            if (camera != nodes[node].end()) node_of_camera_.try_emplace(camera->get<std::size_t>(), node);
+        }
+    }
 
     void write(const Clip& clip, Json& animation, const std::string& place) {
         const float shift = shift_of(clip);
         for (std::size_t c = 0; c < clip.curves.size(); ++c) {
             const Curve& curve = clip.curves[c];
+            if (is_written_for_another(curve)) continue;
             const std::string pointer = pointer_to(curve);
             if (pointer.empty() || !open_parent(root_, pointer)) {
                 report_.warn("curve left out: the file has no " + quote(pointer.empty() ? curve.path : pointer),
@@ -114,16 +123,24 @@ private:
         }
     }
 
+    /// Nodes share a camera only if the same curves move it.
+    [[nodiscard]] bool is_written_for_another(const Curve& curve) const {
+        if (curve.kind != CurveTarget::joint || !curve.path.starts_with(kCameraPath)) return false;
+        const Json& node = root_["nodes"][curve.target];
+        const auto camera = node.find("camera");
+        return camera != node.end() && node_of_camera_.at(camera->get<std::size_t>()) != curve.target;
+    }
+
     /// A node's camera has a list of its own in glTF.
     [[nodiscard]] std::string of_joint(const Curve& curve) const {
-        constexpr std::string_view kCamera = "camera/";
         const Json& node = root_["nodes"][curve.target];
-        if (!curve.path.starts_with(kCamera)) return "/nodes/" + std::to_string(curve.target) + '/' + curve.path;
+        if (!curve.path.starts_with(kCameraPath)) return "/nodes/" + std::to_string(curve.target) + '/' + curve.path;
         if (!node.contains("camera")) return {};
-        return "/cameras/" + node["camera"].dump() + '/' + curve.path.substr(kCamera.size());
+        return "/cameras/" + node["camera"].dump() + '/' + curve.path.substr(kCameraPath.size());
     }
 
     std::span<const std::uint32_t> node_of_mesh_;
+    std::unordered_map<std::size_t, std::uint32_t> node_of_camera_;  ///< the first that has it
     Json& root_;
     Buffer& buffer_;
     Report& report_;

@@ -1,3 +1,4 @@
+#include "curve_property.h"
 #include "failure.h"
 #include "gltf/source_generator.h"
 #include "gltf_out/buffer.h"
@@ -16,10 +17,11 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
-#include <unordered_map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -82,11 +84,24 @@ std::vector<Json> read_node_members(const Scene& scene, Report& report) {
     return members;
 }
 
-void add_node_members(const std::vector<Json>& members, Json& root, Json& nodes, Report& report) {
-    std::unordered_map<std::string, std::size_t> cameras;  // by their text
+/// By joint: what its camera does in the clips, as bytes that are the same for the same motion only.
+std::vector<std::string> motions_of_cameras(const Scene& scene) {
+    std::vector<std::string> motions(scene.joints.size());
+    for (std::size_t clip = 0; clip < scene.clips.size(); ++clip) {
+        for (const Curve& curve : scene.clips[clip].curves) {
+            if (curve.kind == CurveTarget::joint && curve.path.starts_with(kCameraPath))
+                gltf_out::append_motion(curve, clip, motions[curve.target]);
+        }
+    }
+    return motions;
+}
+
+void add_node_members(const Scene& scene, const std::vector<Json>& members, Json& root, Json& nodes, Report& report) {
+    const std::vector<std::string> motions = motions_of_cameras(scene);
+    std::map<std::pair<std::string, std::string_view>, std::size_t> cameras;  // by their text and motion
     for (std::size_t i = 0; i < members.size(); ++i) {
         if (const auto camera = members[i].find("camera"); camera != members[i].end() && camera->is_object()) {
-            const auto [known, is_new] = cameras.try_emplace(camera->dump(), cameras.size());
+            const auto [known, is_new] = cameras.try_emplace({camera->dump(), motions[i]}, cameras.size());
             if (is_new) root["cameras"].push_back(*camera);
             nodes[i]["camera"] = known->second;
         }
@@ -176,7 +191,7 @@ GltfAsset write(const Scene& scene, const ObjectView& object, const std::filesys
     gltf_out::ExportedMeshes meshes = gltf_out::export_meshes(scene, node_members, nodes, roots, buffer, report);
     numbers.set_meshes(meshes, nodes);
     gltf_out::export_instances(nodes, buffer, report);
-    add_node_members(node_members, root, nodes, report);
+    add_node_members(scene, node_members, root, nodes, report);
     gltf_out::ExportedAnimations animations = gltf_out::export_animations(scene, meshes.node_of_mesh, buffer, report);
     add_list(root, "animations", std::move(animations.animations));
     gltf_out::export_materials(scene, std::ref(numbers), root, buffer, report);

@@ -14,6 +14,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -99,10 +100,11 @@ struct Slot {
     std::string extras;
     std::string more;
     std::vector<std::pair<std::string, float>> targets;  ///< name, rest weight
+    std::string_view motion;                             ///< of the weights, see append_motion
 
     friend bool operator<(const Slot& a, const Slot& b) {
-        return std::tie(a.joint, a.skin, a.name, a.extras, a.more, a.targets) <
-               std::tie(b.joint, b.skin, b.name, b.extras, b.more, b.targets);
+        return std::tie(a.joint, a.skin, a.name, a.extras, a.more, a.targets, a.motion) <
+               std::tie(b.joint, b.skin, b.name, b.extras, b.more, b.targets, b.motion);
     }
 };
 
@@ -127,6 +129,7 @@ public:
 
     ExportedMeshes run() {
         out_.node_of_mesh.assign(scene_.meshes.size(), kNone);
+        find_motions();
         for (std::uint32_t i = 0; i < scene_.meshes.size(); ++i) {
             if (has_primitives(scene_.meshes[i])) {
                 place(i);
@@ -139,10 +142,22 @@ public:
     }
 
 private:
+    void find_motions() {
+        motions_.resize(scene_.meshes.size());
+        for (std::size_t clip = 0; clip < scene_.clips.size(); ++clip) {
+            for (const Track& track : scene_.clips[clip].tracks) {
+                if (track.path == TrackPath::weights) append_motion(track, clip, motions_[track.target]);
+            }
+            for (const Play& play : scene_.clips[clip].plays) append_motion(play, clip, motions_[play.mesh]);
+        }
+    }
+
     void place(std::uint32_t number) {
         const Mesh& mesh = scene_.meshes[number];
-        Slot slot{mesh.joint, mesh.influences == 0 ? kNone : skin_of(mesh, number), mesh.name, mesh.extras, mesh.more,
-                  {}};
+        Slot slot{mesh.joint,      mesh.influences == 0 ? kNone : skin_of(mesh, number),
+                  mesh.name,       mesh.extras,
+                  mesh.more,       {},
+                  motions_[number]};
         for (const MorphTarget& target : mesh.targets) slot.targets.emplace_back(target.name, target.rest_weight);
         const std::uint32_t skin = slot.skin;
         const auto [known, is_new] = slots_.try_emplace(std::move(slot), drawn_.size());
@@ -347,6 +362,7 @@ private:
     Buffer& buffer_;
     Report& report_;
     ExportedMeshes out_;
+    std::vector<std::string> motions_;   ///< by mesh: how its weights move
     std::map<Slot, std::size_t> slots_;  ///< into drawn_
     std::vector<Drawn> drawn_;
     std::vector<bool> is_taken_;  ///< by joint: its node draws something

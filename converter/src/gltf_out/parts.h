@@ -42,6 +42,12 @@ Json root_nodes(const Scene& scene);
 /// an extension without such numbers is left out, which is said.
 void export_instances(Json& nodes, Buffer& buffer, Report& report);
 
+// What is equal is written once in glTF, unless something moves one of the two: these append what moves it in a clip.
+
+void append_motion(const Curve& curve, std::size_t clip, std::string& motion);
+void append_motion(const Track& track, std::size_t clip, std::string& motion);
+void append_motion(const Play& play, std::size_t clip, std::string& motion);
+
 struct ExportedMeshes {
     Json meshes = Json::array();
     Json skins = Json::array();

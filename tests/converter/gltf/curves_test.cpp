@@ -316,6 +316,55 @@ TEST(GltfCurves, RoundTripGivesTheSameBytes) {
     }
 }
 
+/// The pointers of an export's first animation.
+std::vector<std::string> pointers_of(const Json& exported) {
+    std::vector<std::string> pointers;
+    for (const Json& channel : exported["animations"][0]["channels"])
+        pointers.push_back(channel["target"]["extensions"]["KHR_animation_pointer"]["pointer"]);
+    return pointers;
+}
+
+TEST(GltfCurves, EqualCamerasStayApartIfACurveMovesOne) {
+    Gltf gltf = make_stage();
+    gltf.json["cameras"][0] = gltf.json["cameras"][1];
+    gltf.add_node({{"camera", 0}});
+    gltf.add_node({{"camera", 0}});
+    add_pointer(gltf, "/cameras/1/perspective/yfov");
+    const Import import = gltf.import();
+    ASSERT_EQ(curves_of(import).size(), 1u);
+    const Exported exported = export_file(build(*import));
+    ASSERT_EQ(exported.json["cameras"].size(), 2u);
+    const Json& nodes = exported.json["nodes"];
+    EXPECT_NE(nodes[1]["camera"], nodes[2]["camera"]);
+    EXPECT_EQ(nodes[2]["camera"], nodes[3]["camera"]) << "nothing moves these two";
+    EXPECT_EQ(pointers_of(exported.json), (std::vector<std::string>{"/cameras/0/perspective/yfov"}));
+    const Scene again = import_again(exported.asset);
+    ASSERT_EQ(again.clips.at(0).curves.size(), 1u);
+    EXPECT_EQ(again.clips[0].curves[0].target, 1u);
+}
+
+TEST(GltfCurves, ASharedCameraStaysShared) {
+    Gltf gltf = make_stage();
+    gltf.add_node({{"camera", 1}});
+    add_pointer(gltf, "/cameras/1/perspective/yfov");
+    const Import import = gltf.import();
+    ASSERT_EQ(curves_of(import).size(), 2u) << "one for each joint that has it";
+    const Exported exported = export_file(build(*import));
+    EXPECT_EQ(exported.json["cameras"].size(), 1u);
+    EXPECT_EQ(pointers_of(exported.json), (std::vector<std::string>{"/cameras/0/perspective/yfov"}));
+    EXPECT_EQ(import_again(exported.asset).clips.at(0).curves.size(), 2u);
+}
+
+TEST(GltfCurves, ACameraOfMillionsIsBounded) {
+    Gltf gltf = make_stage();
+    for (int node = 0; node < 3000; ++node) gltf.add_node({{"camera", 1}});
+    const std::size_t input = gltf.add_accessor<float>({0, 1}, "SCALAR");
+    gltf.json["accessors"][input]["count"] = 1;
+    for (int curve = 0; curve < 1000; ++curve)
+        add_pointer(gltf, "/cameras/1/extras/" + std::to_string(curve), input, input);
+    EXPECT_EQ(gltf.import().message(), "the decoded data would be implausibly large");
+}
+
 TEST(GltfCurves, OurFilesComeBackByteForByte) {
     const Buffer file = build(*every_curve().import());
     Report report;

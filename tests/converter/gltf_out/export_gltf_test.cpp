@@ -262,6 +262,29 @@ TEST(ExportGltf, MeshesOfOneJointShareItsNodeOnlyIfTheyCan) {
     EXPECT_EQ(apart.document["nodes"][1], json::parse(R"({"name":"another","mesh":1})"));
 }
 
+TEST(ExportGltf, MeshesWhoseWeightsMoveDifferentlyStayApart) {
+    Scene scene = triangle();
+    scene.meshes[0].targets.emplace_back().positions.resize(3, glm::vec3(1.0f));
+    scene.meshes.push_back(scene.meshes[0]);
+    Clip clip;
+    Track smile;
+    smile.path = TrackPath::weights;
+    smile.target = 0;
+    smile.components = 1;
+    smile.times = {0.0f, 1.0f};
+    smile.values = {0.0f, 1.0f};
+    clip.tracks.push_back(smile);
+    scene.clips.push_back(clip);
+    const Exported apart = export_scene(scene);
+    EXPECT_EQ(apart.document["meshes"].size(), 2u);
+    EXPECT_EQ(apart.document["animations"][0]["channels"].size(), 1u);
+    smile.target = 1;
+    scene.clips[0].tracks.push_back(smile);
+    const Exported together = export_scene(scene);
+    EXPECT_EQ(together.document["meshes"].size(), 1u);
+    EXPECT_EQ(together.document["animations"][0]["channels"].size(), 1u);
+}
+
 TEST(ExportGltf, WhatGltfForbidsIsMended) {
     Scene scene = triangle();
     scene.meshes[0].normals = {{0.0f, 0.0f, 0.0f}, {0.0f, 3.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
