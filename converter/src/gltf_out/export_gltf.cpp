@@ -6,6 +6,7 @@
 #include "gltf_out/parts.h"
 #include "passes/mesh_order.h"
 #include "rig/parse_rig.h"
+#include "source/normalise.h"
 #include "source/source_file.h"
 
 #include <bendy/converter/export.h>
@@ -225,6 +226,7 @@ GltfAsset export_bytes(Bytes bytes, const std::filesystem::path& buffer_file, Re
     if (!bendy_file.empty() && !options.output.empty())
         move_links(*scene, bendy_file, options.output, ReadableFolders::of(bendy_file), report);
     if (!options.vertices.empty()) keep_level(*scene, options.vertices);
+    for (std::size_t i = 0; i < scene->meshes.size(); ++i) merge_influences(scene->meshes[i], at("meshes", i), report);
     // Read again for the rig, which is written from the records.
     Result<ChunkTree> tree = read_chunk_tree(bytes);
     if (!tree) fail({}, describe_with_place(tree.error(), bytes));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace bendy::converter {
 namespace {
@@ -72,6 +73,55 @@ constexpr double kRounding = 2e-7;
 
 /// A weight below this is no rounding of zero.
 constexpr float kNegative = -1e-3f;
+
+/// The influences of a vertex that have weight, in front, as they came; behind them bone 0 without weight.
+void move_to_front(std::uint32_t* bones, float* weights, std::size_t n) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!(weights[i] > 0.0f)) continue;
+        bones[kept] = bones[i];
+        weights[kept] = weights[i];
+        ++kept;
+    }
+    std::fill(bones + kept, bones + n, 0u);
+    std::fill(weights + kept, weights + n, 0.0f);
+}
+
+/// \param order  memory to work in
+/// \return whether the vertex named a bone twice
+bool merge_vertex(std::uint32_t* bones, float* weights, std::size_t n, std::vector<std::size_t>& order) {
+    order.clear();
+    for (std::size_t i = 0; i < n; ++i) {
+        if (weights[i] > 0.0f) order.push_back(i);
+    }
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return std::tie(bones[a], a) < std::tie(bones[b], b); });
+    bool is_merged = false;
+    for (std::size_t first = 0; first < order.size();) {
+        double sum = weights[order[first]];
+        std::size_t next = first + 1;
+        for (; next < order.size() && bones[order[next]] == bones[order[first]]; ++next) {
+            sum += weights[order[next]];
+            weights[order[next]] = 0.0f;
+            is_merged = true;
+        }
+        if (next > first + 1) weights[order[first]] = static_cast<float>(sum);
+        first = next;
+    }
+    if (is_merged) move_to_front(bones, weights, n);
+    return is_merged;
+}
+
+/// The influences of vertices, `n` each.
+void merge_all(std::vector<std::uint32_t>& bones, std::vector<float>& weights, std::size_t n, const std::string& place,
+               Report& report) {
+    if (n < 2) return;
+    std::uint64_t merged = 0;
+    std::vector<std::size_t> order;
+    for (std::size_t first = 0; first < bones.size(); first += n)
+        merged += merge_vertex(bones.data() + first, weights.data() + first, n, order) ? 1 : 0;
+    if (merged > 0) report.warn("influences of a vertex by the same joint merged into one", place, merged);
+}
 
 }  // namespace
 
@@ -169,21 +219,20 @@ LargestBone normalise_influences(Influences& influences, const std::string& plac
             for (std::size_t i = 0; i < n; ++i) weights[i] = static_cast<float>(static_cast<double>(weights[i]) / sum);
             ++unnormalised;
         }
-        std::size_t kept = 0;
+        move_to_front(bones, weights, n);
         for (std::size_t i = 0; i < n; ++i) {
-            if (!(weights[i] > 0.0f)) continue;
-            bones[kept] = bones[i];
-            weights[kept] = weights[i];
-            if (bones[kept] > largest.bone) largest = {bones[kept], v};
-            ++kept;
+            if (bones[i] > largest.bone) largest = {bones[i], v};
         }
-        std::fill(bones + kept, bones + n, 0u);
-        std::fill(weights + kept, weights + n, 0.0f);
     }
+    merge_all(influences.bones, influences.weights, n, place, report);
     if (unnormalised > 0) report.warn("weights of a vertex did not sum to 1, normalised", place, unnormalised);
     if (weightless > 0) report.warn("vertex without weights, bound to its first joint", place, weightless);
     if (negative > 0) report.warn("weight a little below zero set to zero", place, negative);
     return largest;
+}
+
+void merge_influences(Mesh& mesh, const std::string& place, Report& report) {
+    merge_all(mesh.bones, mesh.weights, mesh.influences, place, report);
 }
 
 void trim_influences(Mesh& mesh) {

@@ -40,9 +40,14 @@ struct LargestBone {
 };
 
 /// Brings the weights of each vertex to sum 1 over all sets: those that miss it by more than float rounding are divided
-/// by their sum (computed in double), vertices without weight follow their first bone. Then moves influences without
-/// weight to the back, as bone 0. Fails at `place` on a weight that is clearly negative.
+/// by their sum (computed in double), vertices without weight follow their first bone. Influences of one bone become
+/// one. Then moves influences without weight to the back, as bone 0. Fails at `place` on a weight that is clearly
+/// negative.
 LargestBone normalise_influences(Influences& influences, const std::string& place, Report& report);
+
+/// Makes one influence of all that a vertex of the mesh has of one bone, with the sum of their weights, in the place of
+/// the first; glTF and X-files allow no others. A mesh without such vertices stays as it is. A warning counts them.
+void merge_influences(Mesh& mesh, const std::string& place, Report& report);
 
 /// Cuts a mesh's influences per vertex to the most that any vertex uses, at least 1.
 void trim_influences(Mesh& mesh);

@@ -1,6 +1,7 @@
 #include "failure.h"
 #include "parts.h"
 #include "passes/mesh_order.h"
+#include "source/normalise.h"
 #include "source/source_file.h"
 #include "space.h"
 #include "x/conventions.h"
@@ -234,6 +235,7 @@ XAsset export_bytes(Bytes bytes, const std::string& image_stem, Report& report, 
     if (!bendy_file.empty() && !options.output.empty())
         move_links(*scene, bendy_file, options.output, ReadableFolders::of(bendy_file), report);
     if (!options.vertices.empty()) keep_level(*scene, options.vertices);
+    for (std::size_t i = 0; i < scene->meshes.size(); ++i) merge_influences(scene->meshes[i], at("meshes", i), report);
     return x_out::write(*scene, image_stem, report);
 }
 

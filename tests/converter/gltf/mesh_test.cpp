@@ -198,10 +198,25 @@ TEST(GltfMesh, InfluencesWithoutWeightGoAndTheOthersStayInOrder) {
 }
 
 TEST(GltfMesh, AllSetsOfInfluencesAreKept) {
-    const InfluenceSet set{{0, 1, 2, 3}, {0.0625f, 0.0625f, 0.0625f, 0.0625f}};
-    const Import import = make_skinned(4, {set, set, set, set}).import();
+    const std::vector<float> weights(4, 0.0625f);
+    const Import import =
+        make_skinned(
+            16,
+            {{{0, 1, 2, 3}, weights}, {{4, 5, 6, 7}, weights}, {{8, 9, 10, 11}, weights}, {{12, 13, 14, 15}, weights}})
+            .import();
     EXPECT_EQ(import->meshes.at(0).influences, 16u);
     EXPECT_TRUE(import.report.warnings().empty());
+}
+
+TEST(GltfMesh, InfluencesOfOneJointBecomeOne) {
+    const Import import = make_skinned(3, {{{2, 1, 2, 0, 0, 1, 0, 0}, {0.25f, 0.125f, 0.25f, 0.125f, 1, 0, 0, 0}},
+                                           {{1, 2, 0, 0, 0, 0, 0, 0}, {0.125f, 0.125f, 0, 0, 0, 0, 0, 0}}})
+                              .import();
+    const Mesh& mesh = import->meshes.at(0);
+    EXPECT_EQ(mesh.influences, 3u);
+    EXPECT_EQ(mesh.bones, (std::vector<std::uint32_t>{2, 1, 0, 0, 0, 0}));
+    EXPECT_EQ(mesh.weights, (std::vector<float>{0.625f, 0.25f, 0.125f, 1, 0, 0}));
+    EXPECT_EQ(import.warned("influences of a vertex by the same joint merged into one"), 1u);
 }
 
 TEST(GltfMesh, WeightsAreNormalisedOverAllSets) {

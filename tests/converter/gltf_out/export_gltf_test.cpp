@@ -262,6 +262,24 @@ TEST(ExportGltf, MeshesOfOneJointShareItsNodeOnlyIfTheyCan) {
     EXPECT_EQ(apart.document["nodes"][1], json::parse(R"({"name":"another","mesh":1})"));
 }
 
+TEST(ExportGltf, InfluencesOfOneJointBecomeOne) {
+    Scene scene = triangle();
+    scene.joints.push_back(scene.joints[0]);
+    scene.joints[1].name = "tip";
+    scene.joints[1].parent = 0;
+    Mesh& mesh = scene.meshes[0];
+    mesh.influences = 3;
+    mesh.palette = {{0, 1}, {glm::mat4(1.0f), glm::mat4(1.0f)}};
+    mesh.bones = {1, 0, 1, 0, 1, 0, 0, 0, 0};
+    mesh.weights = {0.25f, 0.5f, 0.25f, 0.5f, 0.5f, 0.0f, 1.0f, 0.0f, 0.0f};
+    const Exported exported = export_scene(scene);
+    EXPECT_TRUE(exported.warns("by the same joint merged into one"));
+    const Mesh again = import_again(exported.asset).meshes.at(0);
+    EXPECT_EQ(again.influences, 2u);
+    EXPECT_EQ(again.bones, (std::vector<std::uint32_t>{1, 0, 0, 1, 0, 0}));
+    EXPECT_EQ(again.weights, (std::vector<float>{0.5f, 0.5f, 0.5f, 0.5f, 1.0f, 0.0f}));
+}
+
 TEST(ExportGltf, MeshesWhoseWeightsMoveDifferentlyStayApart) {
     Scene scene = triangle();
     scene.meshes[0].targets.emplace_back().positions.resize(3, glm::vec3(1.0f));
