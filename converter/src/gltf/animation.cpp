@@ -151,6 +151,7 @@ private:
             return {};
         }
         if (path == TrackPath::rotation) check_rotations(keys, sampler_place + ".output");
+        if (keys.times.empty()) return {};
         if (path != TrackPath::weights && !document_.model.nodes[node].matrix.empty()) {
             document_.report.warn("channel of a node with a matrix moves the matrix's parts", place + ".target.node");
         }
@@ -330,19 +331,28 @@ private:
     }
 
     /// Normalises the rotations of linear and step keys. Those of cubic ones stay: the specification normalises what
-    /// the spline gives, and value and tangents belong together.
+    /// the spline gives, and value and tangents belong together. Four zeros are not a rotation: such keys are removed.
     void check_rotations(Keys& keys, const std::string& place) const {
         const bool is_cubic = keys.interpolation == Interpolation::cubic;
         const std::size_t stride = is_cubic ? 12 : 4;
         std::uint64_t far_off = 0;
+        std::size_t kept = 0;
         for (std::size_t k = 0; k < keys.times.size(); ++k) {
             float* value = keys.values.data() + k * stride + (is_cubic ? 4 : 0);
             const UnitQuaternion unit = make_unit({value[0], value[1], value[2], value[3]});
-            if (unit.length == 0.0) fail(place, "rotation key " + std::to_string(k) + " is (0, 0, 0, 0)");
+            if (unit.length == 0.0) continue;
             if (std::abs(unit.length - 1.0) > kUnitTolerance) ++far_off;
-            if (is_cubic) continue;
-            for (int i = 0; i < 4; ++i) value[i] = unit.value[i];
+            if (!is_cubic) std::copy_n(&unit.value[0], 4, value);
+            if (kept != k) {
+                keys.times[kept] = keys.times[k];
+                std::copy_n(keys.values.data() + k * stride, stride, keys.values.data() + kept * stride);
+            }
+            ++kept;
         }
+        if (kept < keys.times.size())
+            document_.report.warn("rotation key is (0, 0, 0, 0), left out", place, keys.times.size() - kept);
+        keys.times.resize(kept);
+        keys.values.resize(kept * stride);
         if (far_off > 0) {
             document_.report.warn(
                 is_cubic ? "rotation key is no unit quaternion" : "rotation key is no unit quaternion, normalised",

@@ -93,16 +93,21 @@ private:
 
     void read_rotations(const std::vector<float>& values, const std::string& place) {
         std::uint64_t far_off = 0;
+        std::uint64_t zero = 0;
         for (std::size_t i = 0; i < instances_.size(); ++i) {
             const UnitQuaternion unit =
                 make_unit({values[4 * i], values[4 * i + 1], values[4 * i + 2], values[4 * i + 3]});
-            if (unit.length == 0.0) fail(place, "the rotation of instance " + std::to_string(i) + " is (0, 0, 0, 0)");
+            if (unit.length == 0.0) {
+                ++zero;
+                continue;
+            }
             constexpr double kByteRounding = 2e-2;  // of normalised bytes, the coarsest that the extension allows
             if (std::abs(unit.length - 1.0) > kByteRounding) ++far_off;
             instances_[i].rotation = unit.value;
         }
         if (far_off > 0)
             document_.report.warn("rotation of an instance is no unit quaternion, normalised", place, far_off);
+        if (zero > 0) document_.report.warn("rotation of an instance is (0, 0, 0, 0), taken as none", place, zero);
     }
 
     const Document& document_;

@@ -94,8 +94,14 @@ private:
         add_markers(clip, animation, place);
         weighted_nodes_.clear();
         for (std::size_t t = 0; t < clip.tracks.size(); ++t) {
-            check_rotations(clip.tracks[t], place + "." + at("tracks", t));
-            add_channel(clip.tracks[t], animation);
+            const Track& track = clip.tracks[t];
+            if (track.path != TrackPath::rotation || track.interpolation != Interpolation::cubic) {
+                add_channel(track, animation);
+                continue;
+            }
+            Track spline = track;
+            drop_zero_rotations(spline, place + "." + at("tracks", t));
+            if (!spline.times.empty()) add_channel(spline, animation);
         }
         for (const Play& play : clip.plays) add_channel(weights_track(scene_, clip, play), animation);
         if (const ClipSpan span = span_of(clip); span != span_of_keys(clip)) hold(clip, span, animation, place);
@@ -128,15 +134,23 @@ private:
                      place);
     }
 
-    /// A spline's rotation may have any length here; glTF's readers take the four numbers for a turn, and zeros are
-    /// none.
-    static void check_rotations(const Track& track, const std::string& place) {
-        if (track.path != TrackPath::rotation || track.interpolation != Interpolation::cubic) return;
+    /// A spline's rotation may have any length here; glTF's readers take the four numbers for a turn, which four
+    /// zeros are not: such keys are removed.
+    void drop_zero_rotations(Track& track, const std::string& place) {
+        constexpr std::size_t kStride = 12;
+        std::size_t kept = 0;
         for (std::size_t k = 0; k < track.times.size(); ++k) {
-            const auto value = track.values.begin() + static_cast<std::ptrdiff_t>(k * 12 + 4);
-            if (std::all_of(value, value + 4, [](float number) { return number == 0.0f; }))
-                fail(place, "rotation key " + std::to_string(k) + " is (0, 0, 0, 0), which glTF cannot hold");
+            const float* const key = track.values.data() + k * kStride;
+            if (std::all_of(key + 4, key + 8, [](float number) { return number == 0.0f; })) continue;
+            track.times[kept] = track.times[k];
+            std::copy_n(key, kStride, track.values.data() + kept * kStride);
+            ++kept;
         }
+        if (kept == track.times.size()) return;
+        report_.warn("rotation key is (0, 0, 0, 0), which glTF cannot hold, left out", place,
+                     track.times.size() - kept);
+        track.times.resize(kept);
+        track.values.resize(kept * kStride);
     }
 
     /// The animation's extras to put something into; null, which is said, if they are no object.

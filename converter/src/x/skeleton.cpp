@@ -187,10 +187,11 @@ private:
             track.path = path;
             track.target = joint;
             track.components = components;
-            track.times = times.seconds;
-            for (const std::size_t key : times.keys)
-                add_value(kind, keys.values.data() + key * components, animation, track);
-            keep(std::move(track), animation.place, clip);
+            for (std::size_t k = 0; k < times.keys.size(); ++k) {
+                if (add_value(kind, keys.values.data() + times.keys[k] * components, animation, track))
+                    track.times.push_back(times.seconds[k]);
+            }
+            if (!track.times.empty()) keep(std::move(track), animation.place, clip);
         };
         add_kind(kPosition, TrackPath::translation, 3);
         add_kind(kRotation, TrackPath::rotation, 4);
@@ -219,8 +220,8 @@ private:
     }
 
     /// X-files turn the other way: their rotations have w negated, and the mirror negates x and y. All four with the
-    /// other sign mean the same.
-    void add_value(std::size_t kind, const float* value, const Animation& animation, Track& track) {
+    /// other sign mean the same. \return false for four zeros, which are not a rotation
+    bool add_value(std::size_t kind, const float* value, const Animation& animation, Track& track) {
         if (kind == kScale) {
             track.values.insert(track.values.end(), value, value + 3);
         } else if (kind == kPosition) {
@@ -228,11 +229,15 @@ private:
         } else {
             const UnitQuaternion unit =
                 make_unit({double{value[1]}, double{value[2]}, -double{value[3]}, double{value[0]}});
-            if (unit.length == 0.0) fail(animation.place, "a rotation key is (0, 0, 0, 0)");
+            if (unit.length == 0.0) {
+                report_.warn("rotation key is (0, 0, 0, 0), left out", animation.place);
+                return false;
+            }
             if (std::abs(unit.length - 1.0) > kUnitTolerance)
                 report_.warn("rotation key is no unit quaternion, normalised", animation.place);
             for (int i = 0; i < 4; ++i) track.values.push_back(unit.value[i]);
         }
+        return true;
     }
 
     /// Matrix keys become three tracks.

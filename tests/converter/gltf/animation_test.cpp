@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace bendy::converter::animation_test {
@@ -170,8 +171,22 @@ TEST(GltfAnimation, RotationKeysAreNormalised) {
     const Import import = import_keys({0, 1}, {0, 0, 0, 2, 0.6f, 0, 0, 0.8f}, "VEC4", "rotation");
     EXPECT_EQ(import->clips.at(0).tracks.at(0).values, (std::vector<float>{0, 0, 0, 1, 0.6f, 0, 0, 0.8f}));
     EXPECT_EQ(import.warned("no unit quaternion"), 1u);
-    const Import zero = import_keys({0, 1}, {0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", "rotation");
-    EXPECT_EQ(zero.message(), "rotation key 1 is (0, 0, 0, 0)");
+}
+
+TEST(GltfAnimation, ARotationKeyOfZerosIsLeftOut) {
+    const Import one = import_keys({0, 1, 2}, {0, 0, 0, 1, 0, 0, 0, 0, 0.6f, 0, 0, 0.8f}, "VEC4", "rotation");
+    const Track& track = one->clips.at(0).tracks.at(0);
+    EXPECT_EQ(track.times, (std::vector<float>{0, 2}));
+    EXPECT_EQ(track.values, (std::vector<float>{0, 0, 0, 1, 0.6f, 0, 0, 0.8f}));
+    EXPECT_EQ(one.warned("rotation key is (0, 0, 0, 0), left out"), 1u);
+    const Import all = import_keys({0, 1}, std::vector<float>(8), "VEC4", "rotation");
+    EXPECT_TRUE(all->clips.at(0).tracks.empty());
+    EXPECT_EQ(all.warned("rotation key is (0, 0, 0, 0), left out"), 2u);
+    std::vector<float> spline(24, 0.5f);
+    std::fill_n(spline.begin() + 4, 4, 0.0f);  // the first key's value
+    const Import cubic = import_keys({0, 1}, spline, "VEC4", "rotation", "CUBICSPLINE");
+    EXPECT_EQ(cubic->clips.at(0).tracks.at(0).times, (std::vector<float>{1}));
+    EXPECT_EQ(cubic->clips[0].tracks[0].values, std::vector<float>(12, 0.5f));
 }
 
 TEST(GltfAnimation, NormalisedIntegersAreRotationsToo) {

@@ -428,18 +428,21 @@ TEST(ExportGltf, ABrokenFileIsRefused) {
     EXPECT_NE(asset.error().message.find("HEAD/VERS"), std::string::npos) << asset.error().message;
 }
 
-TEST(ExportGltf, ASplineThroughNoRotationIsRefusedWithItsPlace) {
+TEST(ExportGltf, ASplineThroughNoRotationLosesThatKey) {
     Scene scene = triangle();
     Track still{TrackPath::translation, Interpolation::linear, 0, 3, {0.0f}, {1.0f, 0.0f, 0.0f}};
     Track spline{TrackPath::rotation, Interpolation::cubic, 0, 4, {0.0f, 1.0f}, std::vector<float>(24, 0.0f)};
     spline.values[7] = 1.0f;  // the first key's w; the second's stays 0
     scene.clips.emplace_back().tracks = {still, spline};
-    Report report;
-    const Buffer file(build_chunks(scene, "test", report));
-    const auto asset = export_gltf(file, {}, report);
-    ASSERT_FALSE(asset);
-    EXPECT_EQ(asset.error().place, "clips[0].tracks[1]");
-    EXPECT_EQ(asset.error().message, "rotation key 1 is (0, 0, 0, 0), which glTF cannot hold");
+    const Exported exported = export_scene(scene);
+    EXPECT_TRUE(exported.warns("rotation key is (0, 0, 0, 0), which glTF cannot hold, left out"));
+    const Scene again = import_again(exported.asset);
+    ASSERT_EQ(again.clips.at(0).tracks.size(), 2u);
+    EXPECT_EQ(again.clips[0].tracks[1].times, (std::vector<float>{0.0f}));
+    EXPECT_EQ(again.clips[0].tracks[1].values[7], 1.0f);
+
+    scene.clips[0].tracks[1].values[7] = 0.0f;
+    EXPECT_EQ(import_again(export_scene(scene).asset).clips.at(0).tracks.size(), 1u);
 }
 
 TEST(ExportGltf, ASetOfCoordinatesPastReadersIntegersTakesItsTextureAlong) {
