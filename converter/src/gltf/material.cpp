@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace bendy::converter::gltf {
 namespace {
@@ -53,14 +55,81 @@ TextureUse read_texture_use(const Document& document, const Json* json, const st
     return use;
 }
 
-/// The extensions of a material without fields of their own, as JSON text.
-std::string keep_extensions(const Document& document, const Json& material, const std::string& place) {
+constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+
+/// Reads a texture use in an extension, whose JSON nobody has checked; nothing if it is faulty.
+std::optional<TextureUse> read_unchecked_use(const Document& document, const Json& json, const std::string& place) {
+    const auto is_below = [](const Json* number, std::uint64_t end) {
+        return number != nullptr && number->is_number_unsigned() && number->get<std::uint64_t>() < end;
+    };
+    if (!json.is_object() || !is_below(find(json, "index"), document.model.textures.size())) return std::nullopt;
+    if (const Json* coords = find(json, "texCoord"); coords != nullptr && !is_below(coords, kNone)) return std::nullopt;
+    try {
+        return read_texture_use(document, &json, place);
+    } catch (const Failure&) {
+        return std::nullopt;
+    }
+}
+
+/// A number from 0 to 1, which is `usual` if it is not there; nothing if it is faulty.
+std::optional<float> read_share(const Json* json, float usual) {
+    if (json == nullptr) return usual;
+    if (!json->is_number() || !(json->get<double>() >= 0.0 && json->get<double>() <= 1.0)) return std::nullopt;
+    return json->get<float>();
+}
+
+/// Draws the diffuse colour of KHR_materials_pbrSpecularGlossiness as the base colour of a material that gives none
+/// itself: readers that do not know the extension would show it white.
+/// \return whether it did: the extension is there, and is not faulty
+bool take_diffuse_colour(const Document& document, const Json& json, const std::string& place, Material& material) {
+    const Json* pbr = find(json, "pbrMetallicRoughness");
+    if (pbr != nullptr && (pbr->contains("baseColorFactor") || pbr->contains("baseColorTexture"))) return false;
+    const Json* extensions = find(json, "extensions");
+    const Json* extension =
+        extensions != nullptr && extensions->is_object() ? find(*extensions, kSpecularGlossiness) : nullptr;
+    if (extension == nullptr || !extension->is_object()) return false;
+    glm::vec4 colour(1.0f);
+    if (const Json* factor = find(*extension, "diffuseFactor"); factor != nullptr) {
+        if (!factor->is_array() || factor->size() != 4) return false;
+        for (int i = 0; i < 4; ++i) {
+            const auto share = read_share(&(*factor)[static_cast<std::size_t>(i)], 1.0f);
+            if (!share) return false;
+            colour[i] = *share;
+        }
+    }
+    TextureUse use;
+    if (const Json* texture = find(*extension, "diffuseTexture"); texture != nullptr) {
+        const auto read =
+            read_unchecked_use(document, *texture, place + ".extensions." + kSpecularGlossiness + ".diffuseTexture");
+        if (!read) return false;
+        use = *read;
+    }
+    const auto glossiness = read_share(find(*extension, "glossinessFactor"), 1.0f);
+    if (!glossiness) return false;
+    material.base_colour = colour;
+    material.base_colour_texture = use;
+    if (pbr == nullptr || !pbr->contains("metallicFactor")) material.metallic = 0.0f;
+    // A texture's glossiness differs from place to place: it is left at the roughest.
+    if ((pbr == nullptr || !pbr->contains("roughnessFactor")) && !extension->contains("specularGlossinessTexture"))
+        material.roughness = 1.0f - *glossiness;
+    document.report.warn(
+        std::string(kSpecularGlossiness) +
+            " is approximated: its diffuse colour is drawn as the base colour, the rest is kept as JSON",
+        place + ".extensions");
+    return true;
+}
+
+/// The extensions of a material without fields of their own, as JSON text. \param approximated  one of which the report
+/// says more already, or empty
+std::string keep_extensions(const Document& document, const Json& material, const std::string& place,
+                            std::string_view approximated) {
     const Json* extensions = find(material, "extensions");
     if (extensions == nullptr || !extensions->is_object()) return {};
     Json kept = Json::object();
     for (auto extension = extensions->begin(); extension != extensions->end(); ++extension) {
         if (is_interpreted_material_extension(extension.key())) continue;
         kept.emplace(extension.key(), extension.value());
+        if (extension.key() == approximated) continue;
         document.report.warn("kept as JSON, not interpreted: " + key(extension.key()), place + ".extensions");
     }
     return kept.empty() ? std::string() : kept.dump();
@@ -99,7 +168,9 @@ Material read_material(const Document& document, std::size_t index) {
     material.normal_texture = use(&json, "normalTexture", place);
     material.occlusion_texture = use(&json, "occlusionTexture", place);
     material.emissive_texture = use(&json, "emissiveTexture", place);
-    material.extensions = keep_extensions(document, json, place);
+    const bool is_approximated = take_diffuse_colour(document, json, place, material);
+    material.extensions =
+        keep_extensions(document, json, place, is_approximated ? kSpecularGlossiness : std::string_view());
     material.extras = extras_text(json);
     return material;
 }

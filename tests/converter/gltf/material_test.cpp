@@ -108,6 +108,72 @@ TEST(GltfMaterial, ExtensionsOfferThePreferredImageFirst) {
     EXPECT_EQ(import->images.at(1).media_type, "image/ktx2");
 }
 
+Gltf make_specular_glossiness() {
+    Gltf gltf = make_triangle();
+    gltf.json["images"] = {{{"bufferView", gltf.add_view(kPng)}}};
+    gltf.json["textures"] = {{{"source", 0}}};
+    gltf.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {
+        {"diffuseFactor", {0.5, 0.25, 1, 0.75}},
+        {"diffuseTexture",
+         {{"index", 0}, {"texCoord", 1}, {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0}}}}}}}},
+        {"glossinessFactor", 0.25}};
+    return gltf;
+}
+
+TEST(GltfMaterial, TheDiffuseColourStandsInForTheBaseColour) {
+    Gltf gltf = make_specular_glossiness();
+    const Import import = gltf.import();
+    const Material& material = import->materials.at(0);
+    EXPECT_EQ(material.base_colour, glm::vec4(0.5f, 0.25f, 1.0f, 0.75f));
+    EXPECT_EQ(material.base_colour_texture.texture, 0u);
+    EXPECT_EQ(material.base_colour_texture.coords, 1u);
+    EXPECT_EQ(material.base_colour_texture.offset, glm::vec2(0.5f, 0.0f));
+    EXPECT_EQ(material.metallic, 0.0f);
+    EXPECT_EQ(material.roughness, 0.75f);
+    EXPECT_EQ(Json::parse(material.extensions), gltf.json["materials"][0]["extensions"]);
+    EXPECT_EQ(import.warned("pbrSpecularGlossiness is approximated"), 1u);
+    EXPECT_EQ(import.warned("not interpreted"), 0u);
+
+    Json& extension = gltf.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"];
+    extension["specularGlossinessTexture"] = {{"index", 0}};
+    EXPECT_EQ(gltf.import()->materials.at(0).roughness, 1.0f);
+    gltf.json["materials"][0]["pbrMetallicRoughness"] = {{"metallicFactor", 0.5}, {"roughnessFactor", 0.125}};
+    const Import partly = gltf.import();
+    EXPECT_EQ(partly->materials.at(0).base_colour.x, 0.5f);
+    EXPECT_EQ(partly->materials.at(0).metallic, 0.5f);
+    EXPECT_EQ(partly->materials.at(0).roughness, 0.125f);
+}
+
+TEST(GltfMaterial, ABaseColourGoesBeforeTheDiffuseColour) {
+    Gltf gltf = make_specular_glossiness();
+    gltf.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 0, 1};
+    const Import import = gltf.import();
+    EXPECT_EQ(import->materials.at(0).base_colour, glm::vec4(1, 1, 0, 1));
+    EXPECT_EQ(import->materials.at(0).base_colour_texture.texture, kNone);
+    EXPECT_EQ(import.warned("not interpreted: KHR_materials_pbrSpecularGlossiness"), 1u);
+}
+
+TEST(GltfMaterial, FaultyDiffuseColoursAreOnlyKept) {
+    for (const auto& [member, value] : std::vector<std::pair<std::string, Json>>{
+             {"diffuseFactor", 1},
+             {"diffuseFactor", {1, 1, 1}},
+             {"diffuseFactor", {1, 1, 1, "x"}},
+             {"diffuseFactor", {1, 1, 1, 2}},
+             {"diffuseTexture", 0},
+             {"diffuseTexture", Json::object()},
+             {"diffuseTexture", {{"index", 1}}},
+             {"diffuseTexture", {{"index", -1}}},
+             {"diffuseTexture", {{"index", 0}, {"texCoord", -1}}},
+             {"diffuseTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", 1}}}}},
+             {"glossinessFactor", Json::array()}}) {
+        Gltf gltf = make_specular_glossiness();
+        gltf.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"][member] = value;
+        const Import import = gltf.import();
+        EXPECT_EQ(import->materials.at(0).base_colour, glm::vec4(1.0f)) << member << value;
+        EXPECT_EQ(import.warned("not interpreted: KHR_materials_pbrSpecularGlossiness"), 1u) << member << value;
+    }
+}
+
 TEST(GltfMaterial, ImagesFromFilesAndDataUris) {
     Gltf gltf = make_triangle();
     gltf.json["images"] = {
