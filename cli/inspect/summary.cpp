@@ -297,15 +297,16 @@ ordered_json levels_as_json(const Summary& summary) {
 }  // namespace
 
 std::string kind_in_words(const std::string& kind) {
-    constexpr std::array<std::array<std::string_view, 2>, 9> kWords{{{"PALT", "palettes"},
-                                                                     {"POSI", "positions"},
-                                                                     {"NORM", "normals"},
-                                                                     {"TANG", "tangents"},
-                                                                     {"TEXC", "texture coordinates"},
-                                                                     {"COLR", "colours"},
-                                                                     {"BONE", "influences"},
-                                                                     {"WGHT", "weights"},
-                                                                     {"targets", "morph targets"}}};
+    constexpr std::array<std::array<std::string_view, 2>, 10> kWords{{{"PALT", "palettes"},
+                                                                      {"POSI", "positions"},
+                                                                      {"NORM", "normals"},
+                                                                      {"TANG", "tangents"},
+                                                                      {"TEXC", "texture coordinates"},
+                                                                      {"COLR", "colours"},
+                                                                      {"BONE", "influences"},
+                                                                      {"WGHT", "weights"},
+                                                                      {"targets", "morph targets"},
+                                                                      {"LODD", "levels of detail"}}};
     for (const auto& [id, words] : kWords) {
         if (kind == id) return std::string(words);
     }

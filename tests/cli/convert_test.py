@@ -443,6 +443,13 @@ class Report(Case):
         self.assertLessEqual(compact["measuredError"], 0.001)
         self.assertEqual(sum(kind["exactBytes"] for kind in compact["kinds"]), compact["exactBytes"])
         self.assertLess(report["fewestTriangles"], report["triangles"])
+        [levels] = [kind["compactBytes"] for kind in compact["kinds"] if kind["kind"] == "LODD"]
+        root = Chunk.read((self.folder / "m.bendy").read_bytes())
+        [chunk] = [chunk for _, chunk in root.walk() if chunk.letters == "LODD"]
+        self.assertEqual(levels, 16 + chunk.padded_size())
+        shown = self.done("convert", TENTACLE, "-o", "m.bendy", "--max-error", "1mm", "--lod").decode()
+        self.assertRegex(shown, rf"(?m)^  levels of detail +[0-9,]+ +{levels:,}$")
+        self.assertNotIn("levels of detail", self.done("convert", TENTACLE, "-o", "m.bendy", "--max-error", "1mm").decode())
 
     def test_warnings_and_proposals(self):
         self.done("export", "-q", self.convert(), "-o", "m.gltf")

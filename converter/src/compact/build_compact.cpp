@@ -78,8 +78,8 @@ constexpr std::array kKinds{KindOfChunk{FourCC("SKIN"), "skeleton"}, KindOfChunk
                             KindOfChunk{FourCC("BONE"), "BONE"},     KindOfChunk{FourCC("WGHT"), "WGHT"},
                             KindOfChunk{FourCC("INDX"), "indices"},  KindOfChunk{FourCC("TARG"), "targets"},
                             KindOfChunk{FourCC("FRMS"), "frames"},   KindOfChunk{FourCC("NLST"), "NORM"},
-                            KindOfChunk{FourCC("CYCL"), "clips"},    KindOfChunk{FourCC("TEXT"), "textures"},
-                            KindOfChunk{FourCC("HEAD"), "other"}};
+                            KindOfChunk{FourCC("LODD"), "LODD"},     KindOfChunk{FourCC("CYCL"), "clips"},
+                            KindOfChunk{FourCC("TEXT"), "textures"}, KindOfChunk{FourCC("HEAD"), "other"}};
 
 }  // namespace
 

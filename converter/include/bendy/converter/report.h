@@ -16,7 +16,7 @@ namespace bendy::converter {
 
 /// Bytes of a file by what they are for, headers and padding included.
 struct ByteCount {
-    std::string kind;  ///< skeleton, POSI, ..., indices, targets, clips, textures, other
+    std::string kind;  ///< skeleton, POSI, ..., indices, targets, LODD, clips, textures, other
     std::uint64_t bytes = 0;
 };
 
