@@ -636,6 +636,38 @@ describe('materials and geometry', { skip }, () => {
   }
 });
 
+/** Three joints of one triangle each, with these names; each clip moves one of them up by 2. */
+const namedNodes = (names) => ({
+  scenes: [{ nodes: names.map((_, node) => node) }],
+  nodes: names.map((name, node) => ({ name, mesh: 0, translation: [node, 0, 0] })),
+  animations: names.map((_, node) => ({
+    channels: [{ sampler: 0, target: { node, path: 'translation' } }],
+    samplers: [{ input: 1, output: 2 }],
+  })),
+});
+
+test('every object gets a name of its own, and clips move the right one', { skip }, async () => {
+  const lists = [['Bone', 'Bone', 'Bone_1'], ['Bone_1', 'Bone', 'Bone'], ['Bone', 'Bone', 'Bone_1', 'Bone_1', 'Bone'], ['a b', 'a_b', 'a.b', 'ab']];
+  for (const [k, names] of lists.entries()) {
+    const character = await loadBendy(writeGltf(`names_${k}.gltf`, namedNodes(names)));
+    const given = character.joints.map(({ name }) => name);
+    assert.equal(new Set(given).size, names.length, given.join());
+    names.forEach((name, joint) => assert.equal(character.joints[joint].userData.name, name));
+    for (const [moved, clip] of character.animations.entries()) {
+      const stop = mix(character.scene, clip, 1);
+      character.joints.forEach(({ position }, joint) => assert.equal(position.y, joint === moved ? 2 : 0, `${given[joint]} in clip ${moved}`));
+      stop();
+    }
+  }
+});
+
+test('every morph target gets a name of its own', { skip }, async () => {
+  const targets = ['Smile', '', '1', 'Smile', ''];
+  const mesh = { primitives: [{ attributes: { POSITION: 0 }, targets: targets.map(() => ({ POSITION: 0 })) }], extras: { targetNames: targets } };
+  const { parts } = await loadBendy(writeGltf('target_names.gltf', { nodes: [{ mesh: 0 }], meshes: [mesh] }));
+  assert.deepEqual(parts[0].object.morphTargetDictionary, { Smile: 0, '1_1': 1, 1: 2, Smile_1: 3, 4: 4 });
+});
+
 test('errors are BendyErrors', async () => {
   const fails = (kind) => (error) => error instanceof BendyError && error.kind === kind;
   await assert.rejects(new BendyLoader().loadAsync(`${address}nothing.bendy`), fails('io'));

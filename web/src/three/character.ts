@@ -3,6 +3,7 @@ import { clone as cloneObjects } from 'three/addons/utils/SkeletonUtils.js';
 import { type Chain, type Constraint, type Items, LevelOfDetail, type Model } from '../index.js';
 import { makeClips } from './clips.js';
 import { Materials } from './materials.js';
+import { nameGiver } from './names.js';
 import { bindParts, makeParts, type Part, type PlacedPart } from './parts.js';
 import { ShearedBone, ShearedObject3D } from './shear.js';
 import type { Textures } from './textures.js';
@@ -30,17 +31,6 @@ export interface BendyCharacter {
   joints: Object3D[];
   /** What is drawn. */
   parts: Part[];
-}
-
-/** Gives names as GLTFLoader does: without characters that tracks cannot have, and each only once. */
-function nameGiver(): (name: string) => string {
-  const used = new Map<string, number>();
-  return (name) => {
-    const sanitised = PropertyBinding.sanitizeNodeName(name);
-    const count = used.get(sanitised);
-    used.set(sanitised, (count ?? -1) + 1);
-    return count === undefined ? sanitised : `${sanitised}_${count + 1}`;
-  };
 }
 
 /**
@@ -89,7 +79,8 @@ function sourceOf(fileExtras: unknown): { asset: Record<string, unknown>; userDa
 
 /** @internal Makes the objects of a model. */
 export async function makeCharacter(model: Model, textures: Textures): Promise<BendyCharacter> {
-  const uniqueName = nameGiver();
+  const give = nameGiver();
+  const uniqueName = (name: string): string => give(PropertyBinding.sanitizeNodeName(name)); // without characters that tracks cannot have
   const scene = new Group();
   if (model.name !== '') scene.name = uniqueName(model.name);
   if (typeof model.extras === 'object') Object.assign(scene.userData, model.extras);

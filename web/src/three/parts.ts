@@ -14,6 +14,7 @@ import {
 import type { Mesh, Model, Stream, Submesh } from '../index.js';
 import { BlendedSkeleton, BlendedSkinnedMesh, type Influences, readInfluences } from './influences.js';
 import type { Materials } from './materials.js';
+import { nameGiver } from './names.js';
 
 /** An object that three.js draws: the submeshes of one mesh that have the same material, topology and moving joint. */
 export interface Part {
@@ -58,13 +59,15 @@ function sharedGeometry(mesh: Mesh, influences: Influences | null): BufferGeomet
   const hasNormals = mesh.hasNormals && targets.some((target) => target.hasNormals);
   const positions: BufferAttribute[] = [];
   const normals: BufferAttribute[] = [];
+  const give = nameGiver();
+  const names = targets.map(({ name }) => name && give(name)).map((name, k) => name || give(String(k)));
   for (const [k, target] of targets.entries()) {
     const moved = target.displacements();
     const spread = (values: Float32Array): BufferAttribute => {
       const all = new Float32Array(3 * mesh.vertexCount);
       moved.vertices.forEach((vertex, i) => all.set(values.subarray(3 * i, 3 * i + 3), 3 * vertex));
       const attribute = new BufferAttribute(all, 3);
-      attribute.name = target.name || String(k); // updateMorphTargets makes the dictionary from it
+      attribute.name = names[k]!; // updateMorphTargets makes the dictionary from it
       return attribute;
     };
     positions.push(spread(moved.positions));
