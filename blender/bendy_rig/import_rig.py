@@ -42,7 +42,7 @@ class RigMaker:
         """A key of `bendy rig`: #number, or a name in which a backslash goes before special characters."""
         if re.fullmatch(r'#\d+', key):
             return [int(key[1:])]
-        name = re.sub(r'\\(.)', r'\1', key)
+        name = key[1:] if key.startswith('=') else re.sub(r'\\(.)', r'\1', key)
         return [joint for joint, other in enumerate(self.file.names) if other == name]
 
     def joint_of(self, name):

@@ -203,7 +203,8 @@ void add_bench(CLI::App& program) {
         ->check(CLI::IsMember(kernel_names()))
         ->check(check_kernel)
         ->allow_extra_args(false);
-    command->add_option("--clip", arguments->clip, "the clip to play, by number or name; the first if not given");
+    command->add_option("--clip", arguments->clip,
+                        "the clip to play, " + std::string(kByKey) + "; the first if not given");
     command->add_option("--rounds", arguments->rounds, "measurements of about 2 ms per step")
         ->check(CLI::Range(1, 100'000))
         ->capture_default_str();

@@ -229,8 +229,9 @@ void add_convert(CLI::App& program) {
                       "print one JSON object per input, each on one line, instead of the summary and warnings");
     command->add_option("--depfile", arguments->depfile,
                         "for a single input: write the files that were read as a rule for Make or Ninja");
-    command->add_option("--scene", arguments->scene,
-                        "the scene of a glTF file to convert, by name or number; the file's default if not given");
+    command->add_option(
+        "--scene", arguments->scene,
+        "the scene of a glTF file to convert, " + std::string(kByKey) + "; the file's default if not given");
     command->add_option(
         "--texture", arguments->texture,
         "for Quake II models: the image of the skin, in place of the one that the file names, or of none");
@@ -263,9 +264,9 @@ void add_convert(CLI::App& program) {
         "--auto-skin", arguments->auto_skin,
         "bind each vertex of a mesh without a skin to the nearest bone of the file's skins; if the file has no skin, "
         "to the nearest joint with no mesh on it or below it. A mesh attached to a bone is left unchanged");
-    command->add_option(
-        "--skeleton", arguments->skeleton,
-        "for --auto-skin, which it implies: use only this joint and its descendants as bones; a name, or #12");
+    command->add_option("--skeleton", arguments->skeleton,
+                        "for --auto-skin, which it implies: use only this joint, " + std::string(kByKey) +
+                            ", and its descendants as bones");
     CLI::Option* compact = command
                                ->add_flag("--compact", arguments->compact,
                                           "minimise file size within an error bound, 0.005% unless --max-error is "

@@ -219,9 +219,9 @@ void add_edit(CLI::App& program) {
         "make a character of this joint and its descendants; it keeps its place in every clip");
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
     command->footer(
-        "Names may have * and ?, or be a number: clip:#0. Options are applied in their order; renames of one kind "
-        "that\n"
-        "follow one another happen at once. What is not touched keeps its bytes, unknown chunks too.\n"
+        "Names may have * and ?. A number may stand for a name: 0, or #0 beside something called 0, which is =0 then.\n"
+        "Options are applied in their order; renames of one kind that follow one another happen at once. What is not\n"
+        "touched keeps its bytes, unknown chunks too.\n"
         "Example: bendy edit fox.bendy -o out.bendy --strip textures --merge run.glb --rename clip:mixamo.com=Run");
     command->callback([arguments, command] {
         if (arguments->output.empty() == !arguments->in_place)

@@ -16,15 +16,6 @@
 namespace bendy::cli {
 namespace {
 
-/// The one that has the number; null if the text is no number, or there are not so many.
-template <class T>
-const T* by_number(std::span<const T> list, const std::string& text) {
-    std::size_t number = 0;
-    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool is_number = problem == std::errc() && end == text.data() + text.size();
-    return is_number && number < list.size() ? &list[number] : nullptr;
-}
-
 std::string chain_label(const Model& model, const Chain& chain) {
     std::string label = chain.name.empty() ? "number " + std::to_string(chain.number) : printable(chain.name);
     const std::string_view effector = model.joints()[chain.effector].name;
@@ -33,21 +24,25 @@ std::string chain_label(const Model& model, const Chain& chain) {
 }
 
 const Chain& find_chain(const std::filesystem::path& file, const Model& model, const std::string& name) {
-    if (const Chain* chain = model.chain(name)) return *chain;
-    if (const Chain* chain = by_number(model.chains(), name)) return *chain;
-    const auto moves = [&](const Chain& chain) { return model.joints()[chain.effector].name == name; };
     const auto chains = model.chains();
-    if (const auto found = std::find_if(chains.begin(), chains.end(), moves); found != chains.end()) return *found;
+    std::vector<std::string_view> own;
+    std::vector<std::string_view> moved;
+    for (const Chain& chain : chains) {
+        own.push_back(chain.name);
+        moved.push_back(model.joints()[chain.effector].name);
+    }
+    const ThingKey key = read_key(name);
+    const bool is_own = key.name && std::find(own.begin(), own.end(), *key.name) != own.end();
+    const auto found = find_by_key(is_own ? own : moved, name, "IK chain");
+    if (found) return chains[*found];
+    if (found.error().is_ambiguous) fail(file, printable(found.error().message));
     if (chains.empty()) {
         fail(file, "there is no IK chain \"" + printable(name) +
                        "\"; there are none (`bendy convert --rig` or `--auto-rig` brings some in)");
     }
     // Chains by their own names and by those of the joints that they move: either may have been meant.
-    std::vector<std::string_view> names;
-    for (const Chain& chain : chains) {
-        if (!chain.name.empty()) names.push_back(chain.name);
-        names.push_back(model.joints()[chain.effector].name);
-    }
+    std::vector<std::string_view> names = own;
+    names.insert(names.end(), moved.begin(), moved.end());
     std::string known;
     constexpr std::size_t kShown = 8;
     for (const Chain& chain : chains.first(std::min(kShown, chains.size())))
@@ -136,15 +131,15 @@ CLI::Option* add_root(CLI::App& command, std::filesystem::path& root) {
 }
 
 CLI::Option* add_clip(CLI::App& command, std::string& clip) {
-    return command.add_option("--clip", clip, "the clip, by number or name; the rest pose if not given");
+    return command.add_option("--clip", clip, "the clip, " + std::string(kByKey) + "; the rest pose if not given");
 }
 
 const Clip& find_clip(const std::string& clip, const std::filesystem::path& file, const Model& model) {
-    if (const Clip* found = by_number(model.clips(), clip)) return *found;
-    if (const Clip* found = model.clip(clip)) return *found;
     std::vector<std::string_view> names;
-    for (const Clip& found : model.clips()) names.push_back(found.name);
-    fail(file, printable(no_such_name("clip", clip, names)));
+    for (const Clip& one : model.clips()) names.push_back(one.name);
+    const auto found = find_by_key(names, clip, "clip");
+    if (!found) fail(file, printable(found.error().message));
+    return model.clips()[*found];
 }
 
 void add_format(CLI::App& command, std::string& format, const std::vector<std::string>& formats) {

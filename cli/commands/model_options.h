@@ -13,6 +13,9 @@
 // Options that several commands have, and what they ask of a model.
 namespace bendy::cli {
 
+/// How options take one of several named things, see find_by_key.
+constexpr std::string_view kByKey = "by name or number (#0 is always a number, =0 always a name)";
+
 /// Adds FILE of a command that takes a character of any kind.
 CLI::Option* add_character(CLI::App& command, std::filesystem::path& file);
 /// Adds --root, of a command that reads the files that its input names.
@@ -20,7 +23,7 @@ CLI::Option* add_root(CLI::App& command, std::filesystem::path& root);
 
 /// Adds --clip, of a command that shows the rest pose without it.
 CLI::Option* add_clip(CLI::App& command, std::string& clip);
-/// A clip by its number, or else by its name. Fails with the clips that there are if it is none.
+/// A clip by its name or number, see find_by_key. Fails with the clips that there are if it is none.
 const Clip& find_clip(const std::string& clip, const std::filesystem::path& file, const Model& model);
 
 /// Adds --format. \param formats  the first is that of standard output
@@ -53,8 +56,9 @@ struct ReachGoal {
     ReachTarget target;
 };
 
-/// The chains and targets that are asked for. CHAIN is a chain's name, its number, or the name of the joint that it
-/// moves. Fails with the chains that there are if it is none; throws CLI::ValidationError where the text is no target.
+/// The chains and targets that are asked for. CHAIN is a chain's name or number, see find_by_key, or the name of
+/// the joint that it moves. Fails with the chains that there are if it is none; throws CLI::ValidationError where the
+/// text is no target.
 std::vector<ReachGoal> find_goals(const ReachRequest& request, const std::filesystem::path& file, const Model& model);
 
 /// Nothing where a chain could not be moved: its numbers leave a float's range.

@@ -1,7 +1,6 @@
 #include <bendy/edit/edit.h>
 
-#include <charconv>
-#include <system_error>
+#include <utility>
 
 namespace bendy::edit {
 
@@ -30,24 +29,16 @@ bool matches(std::string_view pattern, std::string_view name) {
 
 Result<std::vector<std::size_t>, Problem> find_named(std::span<const std::string_view> names, std::string_view wanted,
                                                      std::string_view kind) {
-    std::vector<std::size_t> found;
-    for (std::size_t k = 0; k < names.size(); ++k) {
-        if (names[k] == wanted) found.push_back(k);
-    }
-    if (!found.empty()) return found;
-    if (wanted.starts_with('#')) {
-        std::size_t number = 0;
-        const auto [end, fault] = std::from_chars(wanted.data() + 1, wanted.data() + wanted.size(), number);
-        if (fault == std::errc() && end == wanted.data() + wanted.size() && number < names.size())
-            return std::vector<std::size_t>{number};
-    }
-    if (wanted.find_first_of("*?") != std::string_view::npos) {
+    auto found = find_all_by_key(names, wanted, kind);
+    if (found) return *std::move(found);
+    if (!wanted.starts_with('=') && wanted.find_first_of("*?") != std::string_view::npos) {
+        std::vector<std::size_t> matching;
         for (std::size_t k = 0; k < names.size(); ++k) {
-            if (matches(wanted, names[k])) found.push_back(k);
+            if (matches(wanted, names[k])) matching.push_back(k);
         }
-        if (!found.empty()) return found;
+        if (!matching.empty()) return matching;
     }
-    return Problem{no_such_name(kind, wanted, names)};
+    return Problem{found.error().message};
 }
 
 }  // namespace bendy::edit

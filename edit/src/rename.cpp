@@ -6,11 +6,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <map>
 #include <optional>
-#include <set>
-#include <system_error>
 #include <utility>
 
 namespace bendy::edit {
@@ -50,13 +47,14 @@ public:
         : source_(source), what_(what), log_(log), rewrite_(source.tree) {
         find_things();
         for (std::size_t k = 0; k < what.names.size(); ++k) {
-            exact_.try_emplace(what.names[k].first, k);
-            note_number(what.names[k].first, k);
-            if (what.names[k].first.find('*') != std::string::npos) patterns_.push_back(k);
+            const std::string& before = what.names[k].first;
+            note_key(before, k);
+            if (!before.starts_with('=') && before.find('*') != std::string::npos) patterns_.push_back(k);
         }
     }
 
     Edited rename() {
+        if (ambiguous_ != nullptr) return not_found(*ambiguous_);
         std::vector<std::string> names;
         std::vector<std::size_t> uses(what_.names.size());
         std::size_t changed = 0;
@@ -104,16 +102,17 @@ private:
         return first;
     }
 
-    /// "#3", if nothing is called so.
-    void note_number(const std::string& wanted, std::size_t pair) {
-        std::size_t number = 0;
-        const char* last = wanted.data() + wanted.size();
-        if (!wanted.starts_with('#')) return;
-        const auto [end, fault] = std::from_chars(wanted.data() + 1, last, number);
-        if (called_.empty()) {
-            for (const Thing& thing : things_) called_.insert(thing.name);
+    /// Notes which name and which number a pair is for. A text that may be either is the name if something has it.
+    void note_key(const std::string& before, std::size_t pair) {
+        const ThingKey key = read_key(before);
+        const bool is_number = key.number && *key.number < things_.size();
+        if (is_number && called_.empty()) {
+            for (std::size_t k = 0; k < things_.size(); ++k) called_[things_[k].name].push_back(k);
         }
-        if (fault == std::errc() && end == last && !called_.contains(wanted)) numbered_.try_emplace(number, pair);
+        const auto named = is_number && key.name ? called_.find(*key.name) : called_.end();
+        if (named != called_.end() && named->second != std::vector{*key.number}) ambiguous_ = &before;
+        if (key.name) exact_.try_emplace(*key.name, pair);
+        if (is_number && named == called_.end()) numbered_.try_emplace(*key.number, pair);
     }
 
     void find_things() {
@@ -166,12 +165,16 @@ private:
         return std::nullopt;
     }
 
+    /// Of a text that refers to nothing, to different things, or to what other pairs rename.
     [[nodiscard]] Problem not_found(const std::string& wanted) const {
         std::vector<std::string_view> names;
         for (const Thing& thing : things_) names.push_back(thing.name);
         if (wanted.find('*') != std::string::npos)
             return {"no " + std::string(kind_of(what_.kind)) + " is called like \"" + wanted + '"'};
-        return {no_such_name(kind_of(what_.kind), wanted, names)};
+        const auto found = find_all_by_key(names, wanted, kind_of(what_.kind));
+        if (!found) return {found.error().message};
+        return {'"' + wanted + "\" is left over: an earlier name or pattern of the same renaming takes " +
+                list_names(names, *found)};
     }
 
     /// Things that have come to have one name; some of them by name, if there are many.
@@ -268,17 +271,18 @@ private:
     Log& log_;
     Rewrite rewrite_;
     std::vector<Thing> things_;
-    std::map<std::string_view, std::size_t> exact_;  // pairs by their first names
-    std::set<std::string_view> called_;
-    std::map<std::size_t, std::size_t> numbered_;  // pairs by the numbers that they mean
-    std::vector<std::size_t> patterns_;            // pairs with a `*`
+    std::map<std::string_view, std::size_t> exact_;                // pairs by their first names
+    std::map<std::string_view, std::vector<std::size_t>> called_;  // things by their names, once a number asks for it
+    std::map<std::size_t, std::size_t> numbered_;                  // pairs by the numbers that they mean
+    std::vector<std::size_t> patterns_;                            // pairs with a `*`
+    const std::string* ambiguous_ = nullptr;                       // the name of one thing and the number of another
 };
 
 }  // namespace
 
 Result<std::pair<std::string, std::string>, Problem> parse_pair(std::string_view text) {
-    const std::size_t sign = text.find('=');
-    if (sign == std::string_view::npos || sign == 0) return Problem{"\"" + std::string(text) + "\" is not OLD=NEW"};
+    const std::size_t sign = text.find('=', text.starts_with('=') ? 2 : 1);
+    if (sign == std::string_view::npos) return Problem{"\"" + std::string(text) + "\" is not OLD=NEW"};
     const std::pair pair(std::string(text.substr(0, sign)), std::string(text.substr(sign + 1)));
     for (const std::string& name : {pair.first, pair.second}) {
         if (std::count(name.begin(), name.end(), '*') > 1) return Problem{"\"" + name + "\" has more than one *"};

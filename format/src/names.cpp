@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <numeric>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 namespace bendy {
@@ -46,7 +49,70 @@ std::size_t unlikeness(const std::string& wanted, const std::string& name) {
     return kLongest + 1;
 }
 
+std::optional<std::size_t> read_number(std::string_view digits) {
+    std::size_t number = 0;
+    const char* const end = digits.data() + digits.size();
+    const auto [stop, fault] = std::from_chars(digits.data(), end, number);
+    return fault == std::errc() && stop == end ? std::optional(number) : std::nullopt;
+}
+
+KeyProblem ambiguous_key(std::string_view kind, std::string_view text) {
+    const std::string shown(text);
+    const std::string thing(kind);
+    return {thing + " \"" + shown + "\" is ambiguous: =" + shown + " is the " + thing + " with this name, #" + shown +
+                " the " + thing + " with this number",
+            true};
+}
+
+/// Of a text that refers to nothing.
+KeyProblem no_such_thing(std::string_view kind, std::string_view text, const ThingKey& key,
+                         std::span<const std::string_view> names) {
+    if (key.name) return {no_such_name(kind, *key.name, names)};
+    if (std::find(names.begin(), names.end(), text) == names.end()) return {no_such_name(kind, text, names)};
+    const std::string shown(text);
+    return {"there is no " + std::string(kind) + " with the number " + shown.substr(1) + "; =" + shown + " is the " +
+            std::string(kind) + " called \"" + shown + '"'};
+}
+
 }  // namespace
+
+ThingKey read_key(std::string_view text) {
+    if (text.starts_with('=')) return {text.substr(1), std::nullopt};
+    if (text.starts_with('#')) {
+        const auto number = read_number(text.substr(1));
+        return number ? ThingKey{std::nullopt, number} : ThingKey{text, std::nullopt};
+    }
+    return {text, read_number(text)};
+}
+
+Result<std::vector<std::size_t>, KeyProblem> find_all_by_key(std::span<const std::string_view> names,
+                                                             std::string_view text, std::string_view kind) {
+    const ThingKey key = read_key(text);
+    std::vector<std::size_t> found;
+    for (std::size_t k = 0; key.name && k < names.size(); ++k) {
+        if (names[k] == *key.name) found.push_back(k);
+    }
+    if (!key.number || *key.number >= names.size()) {
+        if (found.empty()) return no_such_thing(kind, text, key, names);
+        return found;
+    }
+    std::vector<std::size_t> numbered{*key.number};
+    if (!found.empty() && found != numbered) return ambiguous_key(kind, text);
+    return numbered;
+}
+
+Result<std::size_t, KeyProblem> find_by_key(std::span<const std::string_view> names, std::string_view text,
+                                            std::string_view kind) {
+    const ThingKey key = read_key(text);
+    const auto named = key.name ? std::find(names.begin(), names.end(), *key.name) : names.end();
+    const auto first = static_cast<std::size_t>(named - names.begin());
+    if (!key.number || *key.number >= names.size()) {
+        if (named == names.end()) return no_such_thing(kind, text, key, names);
+        return first;
+    }
+    if (named != names.end() && first != *key.number) return ambiguous_key(kind, text);
+    return *key.number;
+}
 
 std::string_view nearest_name(std::span<const std::string_view> names, std::string_view wanted) {
     if (wanted.empty() || wanted.size() > kLongest) return {};

@@ -368,9 +368,11 @@ def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, s
         _must_exist(rig)
     if texture is not None:
         _must_exist(texture)
+    if scene is not None and not isinstance(scene, str):
+        scene = f"#{scene}"  # "0" might be a name
     bound = None if compact is False else "" if compact is True else compact
     made, report, sources = _bendy.convert(
-        file, found, "" if output is None else output, None if scene is None else str(scene), root or "", images == "embed", instances, rig,
+        file, found, "" if output is None else output, scene, root or "", images == "embed", instances, rig,
         texture or "", ticks_per_second, merge_clips, auto_rig, auto_skin, skeleton, bound, lod, sort_vertices, jobs, progress)
     if output is not None:
         _claim_bendy(output, overwrite, sources)

@@ -3,29 +3,28 @@
 #include <bendy/format/names.h>
 #include <bendy/runtime/blend.h>
 
+#include <algorithm>
 #include <map>
-#include <span>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 // Model, its joints, constraints and chains, and how its things are found.
 namespace bendy::python {
 namespace {
 
-[[noreturn]] void raise_no_such(const char* kind, std::string_view wanted, std::span<const std::string_view> names) {
-    throw py::key_error(no_such_name(kind, wanted, names));
-}
-
-/// The place of the first name that is `wanted`, or kNone.
-template <class Names>
-std::uint32_t find_name(const Names& names, std::string_view wanted) {
-    for (std::size_t k = 0; k < names.size(); ++k) {
-        if (names[k] == wanted) return static_cast<std::uint32_t>(k);
-    }
-    return kNone;
+/// The number of what a text refers to. Raises KeyError.
+std::uint32_t find_key(const std::vector<std::string_view>& names, std::string_view wanted, const char* kind) {
+    const auto found = find_by_key(names, wanted, kind);
+    if (!found) throw py::key_error(found.error().message);
+    return static_cast<std::uint32_t>(*found);
 }
 
 bool has_item(const Items& items, const py::object& key) {
-    if (py::isinstance<py::str>(key)) return find_name(items.names, key.cast<std::string>()) != kNone;
+    if (py::isinstance<py::str>(key)) {
+        return std::find(items.names.begin(), items.names.end(), key.cast<std::string>()) != items.names.end();
+    }
     for (const auto& one : items.list) {
         if (one.is(key)) return true;
     }
@@ -37,11 +36,8 @@ py::object get_item(const Items& items, const py::object& key) {
     if (py::isinstance<PyJoint>(key) && !has_item(items, key))  // which counts as a number elsewhere
         throw py::value_error("the joint is none of these");
     if (!py::isinstance<py::str>(key)) return items.list[index_of(key, items.names.size(), items.kind.c_str())];
-    const auto wanted = key.cast<std::string>();
-    const std::uint32_t place = find_name(items.names, wanted);
-    if (place != kNone) return items.list[place];
     const std::vector<std::string_view> names(items.names.begin(), items.names.end());
-    raise_no_such(items.kind.c_str(), wanted, names);
+    return items.list[find_key(names, key.cast<std::string>(), items.kind.c_str())];
 }
 
 /// A model, until it is closed. Lists are made at the first use.
@@ -92,13 +88,13 @@ py::dict chain_weights_of(const PyChain& self) {
 void bind_items(py::module_& module) {
     py::class_<Items>(module, "Items",
                       "A list of things that are found by number or by name: clips[0], clips[\"Walk\"]. Names need not "
-                      "be unique; the first one counts.")
+                      "be unique; the first one counts. \"#3\" is always a number and \"=3\" always a name.")
         .def("__len__", [](const Items& self) { return self.names.size(); })
         .def("__iter__", [](const Items& self) { return py::iter(self.list); })
         .def("__getitem__", &get_item, py::arg("key"),
              "One by its number (-1 is the last) or its name; a slice gives a tuple. Raises IndexError, or KeyError "
              "with the names that there are.")
-        .def("__contains__", &has_item, py::arg("key"), "Whether there is one with that name, or that object.")
+        .def("__contains__", &has_item, py::arg("key"), "Whether there is one with exactly that name, or that object.")
         .def_property_readonly(
             "names",
             [](const Items& self) {
@@ -251,12 +247,15 @@ std::uint32_t find_thing(const SharedCharacter& character, const py::handle& wan
         return item.number;
     }
     if (py::isinstance<py::str>(wanted)) {
-        const auto name = wanted.cast<std::string>();
-        const std::uint32_t number = find(name);
-        if (number != kNone) return number;
+        const auto text = wanted.cast<std::string>();
+        const ThingKey key = read_key(text);
+        if (!key.number) {  // the model finds a name faster than find_key
+            const std::uint32_t number = find(std::string(*key.name));
+            if (number != kNone) return number;
+        }
         std::vector<std::string_view> all;
         for (const auto& one : names) all.push_back(one.name);
-        raise_no_such(kind, name, all);
+        return find_key(all, text, kind);
     }
     if (py::isinstance<PyJoint>(wanted) || PyIndex_Check(wanted.ptr()) == 0)  // a joint counts as its number elsewhere
         throw py::type_error("a " + std::string(kind) + " is a name, a number or one of the model's own");

@@ -32,6 +32,28 @@ class GltfFile:
         return path
 
 
+def named_file(path, names):
+    """A character whose joints, clips and scenes have these names. Each joint lies at its number on the x axis; a clip moves
+    the first one to the clip's number, and a scene begins with the joint of its number."""
+    numbers = range(len(names))
+    file = GltfFile(nodes=[{"name": name, "translation": [number, 0, 0]} for number, name in enumerate(names)],
+                    scenes=[{"name": names[first], "nodes": sorted(numbers, key=lambda number: number != first)}
+                            for first in numbers])
+    times = file.add([(0,), (1,)], "SCALAR")
+    file.document["animations"] = [
+        {"name": name, "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+         "samplers": [{"input": times, "output": file.add([(number, 0, 0)] * 2, "VEC3")}]}
+        for number, name in enumerate(names)]
+    return file.write(path)
+
+
+def read_name_keys(path):
+    """tests/format/name_keys.txt: the names, and a dict of what each text refers to: a number, "ambiguous" or "absent"."""
+    lines = [line.split() for line in path.read_text().splitlines() if not line.startswith("//")]
+    keys = {line[0]: int(line[1]) if line[1].isdigit() else line[1] for line in lines if line[0] != "names"}
+    return next(line[1:] for line in lines if line[0] == "names"), keys
+
+
 def strange_file(path):
     """A character with names that a terminal must not see as they are, unnamed things, lines, points and a mirror."""
     file = GltfFile(

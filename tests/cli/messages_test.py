@@ -19,7 +19,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
-from gltf_file import GltfFile, strange_file  # noqa: E402
+from gltf_file import GltfFile, named_file, read_name_keys, strange_file  # noqa: E402
 from program import BENDY, SOURCE, Case, main  # noqa: E402
 
 COMMANDS = ("convert", "inspect", "validate", "pose", "render", "rig", "diff", "dump", "assemble", "edit", "export", "view", "bench")
@@ -146,6 +146,46 @@ class Names(MessageCase):
         (self.folder / "two.gltf").write_text(json.dumps(file.document))
         line, _ = self.refused(1, "convert", "two.gltf", "--scene", "Twon")
         self.assertIn('there is no scene "Twon"; did you mean "Town"? There are "Town" and "Country"', line)
+
+    def test_one_reading_of_names_and_numbers(self):
+        names, keys = read_name_keys(SOURCE / "tests/format/name_keys.txt")
+        source = named_file(self.folder / "named.gltf", names)
+        self.done("convert", source, "-o", "named.bendy", "-q")
+        out = ("-o", "out.bendy", "-q")
+
+        def place(*arguments):
+            """Where the first joint is."""
+            return json.loads(self.done("pose", *arguments, "--format", "json"))["joints"][0]["world"][12]
+
+        def clips():
+            return [clip["name"] for clip in json.loads(self.done("inspect", "out.bendy", "--json"))["summary"]["clips"]]
+
+        for key, expected in keys.items():
+            by_kind = {"clip": ("pose", "named.bendy", f"--clip={key}"),
+                       "scene": ("convert", source, *out, f"--scene={key}"),
+                       "joint": ("edit", "named.bendy", *out, f"--extract={key}")}
+            strip = ("edit", "named.bendy", *out, f"--strip=clip:{key}")
+            rename = ("edit", "named.bendy", *out, f"--rename=clip:{key}=new")
+            if isinstance(expected, str):
+                for kind, command in by_kind.items():
+                    said = (f'{kind} "{key}" is ambiguous: ={key} is the {kind} with this name, #{key} the {kind} with this number'
+                            if expected == "ambiguous" else f"there is no {kind} ")
+                    self.assertIn(said, self.refused(1, *command)[0], key)
+                self.refused(1, *strip)
+                self.refused(2 if key == "=" else 1, *rename)  # "==new" has no old name
+                continue
+            self.assertEqual(place(*by_kind["clip"][1:]), expected, key)
+            self.done(*by_kind["scene"])
+            self.assertEqual(place("out.bendy"), expected, key)
+            meant = [k for k, name in enumerate(names)
+                     if k == expected or (not key.startswith("#") and name == key.removeprefix("="))]
+            self.done(*strip)
+            self.assertEqual(clips(), [name for k, name in enumerate(names) if k not in meant], key)
+            self.done(*rename)
+            self.assertEqual(clips(), ["new" if k in meant else name for k, name in enumerate(names)], key)
+        self.assertEqual(place("named.bendy", "--clip", "=Run"), 2)
+        self.done("edit", "named.bendy", *out, "--extract", "#5")
+        self.assertIn("2 joints are called", self.refused(1, "edit", "named.bendy", *out, "--extract", "=Run")[0])
 
     def test_names_from_a_file_cannot_forge_lines(self):
         self.done("convert", strange_file(self.folder / "strange.gltf"), "-o", "strange.bendy", "-q")

@@ -153,13 +153,13 @@ class PoseCommand(Case):
         self.assertEqual(at("--clip", "Walk", "--time", "0.3"), at("--clip", "1", "--time", "0.3"))
         self.assertNotEqual(at("--clip", "Walk", "--time", "0.3"), at("--clip", "Idle", "--time", "0.3"))
         self.assertNotEqual(at("--clip", "Walk", "--time", "0.3"), at())
-        for clip in ("slide\tnow", "0", "1", "2"):
+        for clip in ("slide\tnow", "#0", "1", "2", "=0"):
             document = self.pose(self.strange(), "--clip", clip, "--time", "1")
             self.assertEqual(document["joints"][0]["world"][12], 2)
 
     def test_times_outside_the_clip_are_held(self):
         for time, expected in (("-5", 0), ("0", 0), ("0.5", 0), ("0.75", 1), ("1.5", 4), ("1e30", 4)):
-            document = self.pose(self.strange(), "--clip", "0", "--time", time)
+            document = self.pose(self.strange(), "--clip", "#0", "--time", time)
             self.assertEqual(document["joints"][0]["world"][12], expected, time)
 
     def test_an_unknown_clip_lists_those_that_are_there(self):

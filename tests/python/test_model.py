@@ -8,6 +8,7 @@ import bendy
 import numpy
 import pytest
 from conftest import ROOT
+from gltf_file import named_file, read_name_keys
 
 
 def is_view_of(array, model):
@@ -24,6 +25,25 @@ def test_contents(model, program, mannequin):
     assert [chain.name for chain in model.chains] == [chain["name"] for chain in summary["chains"]]
     walk = model.clips["Walk"]
     assert (walk.start, walk.end, walk.loop) == (0.0, 1.0, True)
+
+
+def test_one_reading_of_names_and_numbers(tmp_path):
+    names, keys = read_name_keys(ROOT / "tests/format/name_keys.txt")
+    model = bendy.open(named_file(tmp_path / "named.gltf", names))
+    for key, expected in keys.items():
+        finds = (lambda: model.clips[key].number, lambda: model.joints[key].number, lambda: model.joint(key),
+                 lambda: model.sample(key, 0.5).matrices[0, 0, 3])
+        for find in finds:
+            if isinstance(expected, int):
+                assert find() == expected, key
+                continue
+            with pytest.raises(KeyError, match=f"=0 is the |=1 is the " if expected == "ambiguous" else "there is no "):
+                find()
+        assert (key in model.clips) == (key in names)
+    for scene, first in ((0, 0), (1, 1), ("=0", 1), ("#1", 1), ("6", 6)):
+        assert bendy.convert(tmp_path / "named.gltf", scene=scene).open().joints[0].translation[0] == first
+    with pytest.raises(bendy.ConversionError, match="ambiguous"):
+        bendy.convert(tmp_path / "named.gltf", scene="0")
 
 
 def test_items_by_number_name_and_slice(model):

@@ -8,7 +8,10 @@ export interface Item {
   readonly number: number;
 }
 
-/** How a function is told which item is meant: by its name (the first of that name), its number or itself. */
+/**
+ * How a function is told which item is meant: by its name (the first of that name), its number or itself. In texts, `#3` is the
+ * number 3, `=3` the name "3", and `3` either of them: an error if that is the name of one item and the number of another.
+ */
 export type Key<T extends Item> = string | number | T;
 
 /** Returns an index of one of `count` things. Throws BAD_ARGUMENT for any other number. */
@@ -22,6 +25,15 @@ export function indexOwn<T extends { readonly number: number }>(list: readonly T
   const index = item != null && list[item.number] === item ? item.number : list.indexOf(item);
   if (index >= 0) return index;
   throw new BendyError('bad_argument', `the ${kind} belongs to another model`);
+}
+
+/** Reads a text that refers to an item, as all tools do: see `Key`. */
+function readKey(text: string): { name?: string; number?: number } {
+  if (text.startsWith('=')) return { name: text.slice(1) };
+  const digits = /^(#?)([0-9]+)$/.exec(text);
+  if (digits === null) return { name: text };
+  const number = Number(digits[2]);
+  return digits[1] === '#' ? { number } : { name: text, number };
 }
 
 /** A list of named things: an array that also finds by name. */
@@ -51,12 +63,15 @@ export class Items<T extends Item> extends Array<T> {
     return this.map((item) => item.name);
   }
 
-  /** Returns whether there is an item of that name. */
+  /** Returns whether there is an item with exactly that name. */
   has(name: string): boolean {
     return this.#numbers.has(name);
   }
 
-  /** Returns the item with that name or number. Throws NOT_FOUND with the names that exist; BAD_ARGUMENT for an item of another list. */
+  /**
+   * Returns the item with that name or number. Throws NOT_FOUND with the names that exist; BAD_ARGUMENT for a text that is the name of
+   * one item and the number of another, and for an item of another list.
+   */
   get(key: Key<T>): T {
     return this[this.number(key)]!;
   }
@@ -64,8 +79,18 @@ export class Items<T extends Item> extends Array<T> {
   /** Returns the place of the item with that name or number. Throws as `get`. */
   number(key: Key<T>): number {
     if (typeof key === 'string') {
-      const number = this.#numbers.get(key);
-      if (number !== undefined) return number;
+      const { name, number } = readKey(key);
+      const named = name === undefined ? undefined : this.#numbers.get(name);
+      const numbered = number !== undefined && number < this.length ? number : undefined;
+      if (named !== undefined && numbered !== undefined && named !== numbered) {
+        const kind = this.#kind;
+        throw new BendyError(
+          'bad_argument',
+          `${kind} ${JSON.stringify(key)} is ambiguous: =${key} is the ${kind} with this name, #${key} the ${kind} with this number`,
+        );
+      }
+      const found = named ?? numbered;
+      if (found !== undefined) return found;
       const names = this.names.slice(0, 20).map((name) => JSON.stringify(name));
       if (this.length > names.length) names.push(`${this.length - names.length} more`);
       throw new BendyError('not_found', `there is no ${this.#kind} ${JSON.stringify(key)}; there are: ${names.join(', ') || 'none'}`);

@@ -1,8 +1,10 @@
 // What a model consists of.
 import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { test } from 'node:test';
 import { Model } from '../dist/index.js';
-import { bendy, convert, corpusFile, difference, example, plain, read, simd } from './helpers.mjs';
+import { bendy, convert, corpusFile, difference, example, folder, plain, read, repository, simd } from './helpers.mjs';
 
 test('joints, clips, chains, constraints and meshes of the mannequin', () => {
   const file = example('mannequin');
@@ -53,6 +55,25 @@ test('joints, clips, chains, constraints and meshes of the mannequin', () => {
   assert.equal(model.submeshes.reduce((sum, submesh) => sum + submesh.count, 0), model.meshes.reduce((sum, mesh) => sum + mesh.indexCount, 0));
   for (const material of model.materials) assert.equal(material.baseColour.length, 4);
   model.dispose();
+});
+
+test('texts refer to names and numbers as everywhere', () => {
+  const lines = readFileSync(join(repository, 'tests/format/name_keys.txt'), 'utf8').trim().split('\n');
+  const [[, ...names], ...keys] = lines.filter((line) => !line.startsWith('//')).map((line) => line.split(' '));
+  const gltf = {
+    asset: { version: '2.0' },
+    scenes: [{ nodes: [...names.keys()] }],
+    nodes: names.map((name) => ({ name })),
+  };
+  writeFileSync(join(folder, 'named.gltf'), JSON.stringify(gltf));
+  const { joints } = Model.openSync(read(convert(join(folder, 'named.gltf'))), { runtime: simd });
+  assert.deepEqual(joints.names, names);
+  for (const [key, expected] of keys) {
+    if (expected === 'absent') assert.throws(() => joints.get(key), { code: 'NOT_FOUND' }, key);
+    else if (expected === 'ambiguous') assert.throws(() => joints.get(key), { code: 'BAD_ARGUMENT', message: new RegExp(`=${key} .*#${key} `) }, key);
+    else assert.equal(joints.get(key).number, Number(expected), key);
+    assert.equal(joints.has(key), names.includes(key));
+  }
 });
 
 test('skinning by palette, bones and weights gives the vertices that skin computes', () => {

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -191,17 +190,12 @@ std::vector<std::uint32_t> find_parents(const Nodes& nodes) {
 std::optional<std::size_t> choose_scene(const Document& document, const std::optional<std::string>& option) {
     const auto& scenes = document.model.scenes;
     if (option) {
-        for (std::size_t i = 0; i < scenes.size(); ++i) {
-            if (scenes[i].name == *option) return i;
-        }
-        std::size_t index = 0;
-        const char* end = option->data() + option->size();
-        const auto parsed = std::from_chars(option->data(), end, index);
-        if (!option->empty() && parsed.ec == std::errc() && parsed.ptr == end && index < scenes.size()) return index;
         std::vector<std::string_view> names;
         names.reserve(scenes.size());
         for (const auto& scene : scenes) names.emplace_back(scene.name);
-        fail("scenes", no_such_name("scene", *option, names));
+        const auto found = find_by_key(names, *option, "scene");
+        if (!found) fail("scenes", found.error().message);
+        return *found;
     }
     if (scenes.empty()) return std::nullopt;
     return document.model.defaultScene >= 0 ? static_cast<std::size_t>(document.model.defaultScene) : 0;

@@ -57,20 +57,15 @@ Flags joints_without_meshes(const Scene& scene) {
     return found;
 }
 
-/// Nothing if there is no joint of that name.
-std::optional<Flags> joints_below(const Scene& scene, const std::string& top) {
-    const JointIndex index(scene);
-    const std::uint32_t joint = index.find_key(top);
-    if (joint == kNone) return std::nullopt;
-    Flags found(scene.joints.size());
-    std::fill(found.begin() + joint, found.begin() + index.end(joint), true);
-    return found;
-}
-
-std::vector<std::string_view> names_of(const Scene& scene) {
+/// The joint that the text refers to, and those below it.
+Result<Flags, KeyProblem> joints_below(const Scene& scene, const std::string& top) {
     std::vector<std::string_view> names;
     for (const Joint& joint : scene.joints) names.emplace_back(joint.name);
-    return names;
+    const auto joint = find_by_key(names, top, "joint");
+    if (!joint) return joint.error();
+    Flags found(scene.joints.size());
+    std::fill(found.begin() + *joint, found.begin() + JointIndex(scene).end(static_cast<std::uint32_t>(*joint)), true);
+    return found;
 }
 
 bool has_any(const Flags& flags) {
@@ -182,7 +177,7 @@ Result<void, ImportError> auto_skin(Scene& scene, const std::string& skeleton, R
     Flags joints = joints_of_skins(scene);
     if (!skeleton.empty()) {
         auto below = joints_below(scene, skeleton);
-        if (!below) return ImportError{"skeleton", no_such_name("joint", skeleton, names_of(scene))};
+        if (!below) return ImportError{"skeleton", below.error().message};
         joints = *std::move(below);
     } else if (!has_any(joints)) {
         joints = joints_without_meshes(scene);

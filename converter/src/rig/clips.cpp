@@ -155,7 +155,7 @@ public:
     [[nodiscard]] std::uint32_t find(std::string_view key) const {
         std::uint64_t number = 0;
         if (parse_joint_number(key, number)) return number < count_ ? static_cast<std::uint32_t>(number) : kNone;
-        const auto named = by_name_.find(key);
+        const auto named = by_name_.find(name_of_key(key));
         return named == by_name_.end() ? kNone : static_cast<std::uint32_t>(named->second);
     }
 
@@ -335,7 +335,7 @@ void attach_markers(Scene& scene, const Rig& rig, Report& report) {
     for (const RigClip& entry : *rig.clips) {
         std::uint64_t number = 0;
         const bool is_number = parse_joint_number(entry.key, number);
-        const auto named = by_name.find(entry.key);
+        const auto named = by_name.find(name_of_key(entry.key));
         if (!is_number && named != by_name.end()) number = named->second;
         if (is_number ? number >= scene.clips.size() : named == by_name.end()) {
             report.warn("no clip takes " + quote(entry.key), rig.source + entry.place);

@@ -73,11 +73,24 @@ bool parse_joint_number(std::string_view text, std::uint64_t& number) {
     return true;
 }
 
+std::string_view name_of_key(std::string_view key) {
+    return key.starts_with('=') ? key.substr(1) : key;
+}
+
+bool means_itself(std::string_view name) {
+    std::uint64_t number = 0;
+    return !name.starts_with('=') && !parse_joint_number(name, number);
+}
+
 JointKey parse_joint_key(std::string_view text, const std::string& place) {
     JointKey key;
     key.name = text;
     if (parse_joint_number(text, key.number)) {
         key.kind = JointKey::Kind::number;
+        return key;
+    }
+    if (text.starts_with('=')) {
+        key.name = name_of_key(text);
         return key;
     }
     KeyReader reader(text, place);
@@ -134,9 +147,7 @@ bool fits(const std::vector<JointKey::Step>& glob, std::u32string_view name, Wor
 }
 
 std::string escape_joint_name(std::string_view name) {
-    std::string key;
-    std::uint64_t number = 0;
-    if (parse_joint_number(name, number)) key = '\\';
+    std::string key(means_itself(name) ? "" : "\\");
     for (const char c : name) {
         if (kSpecial.find(c) != std::string_view::npos) key += '\\';
         key += c;
@@ -171,7 +182,7 @@ std::uint32_t JointIndex::find(std::string_view name, std::uint32_t top) const {
 
 std::uint32_t JointIndex::find_key(std::string_view key) const {
     std::uint64_t number = 0;
-    if (!parse_joint_number(key, number)) return find(key);
+    if (!parse_joint_number(key, number)) return find(name_of_key(key));
     return number < size() ? static_cast<std::uint32_t>(number) : kNone;
 }
 

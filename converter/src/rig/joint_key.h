@@ -32,7 +32,7 @@ private:
 std::u32string characters_of(std::string_view text);
 
 /// Which joints a key of a rig means: `#12`, a name, or a glob with `*`, `?` and `[abc]`. `\` takes the special meaning
-/// from the character after it.
+/// from the character after it. What follows a `=` at the start is a name, whatever is in it.
 struct JointKey {
     enum class Kind : std::uint8_t { number, name, glob };
     /// One step of a glob.
@@ -56,6 +56,12 @@ bool fits(const std::vector<JointKey::Step>& glob, std::u32string_view name, Wor
 /// The number of `#12`; false for other text.
 bool parse_joint_number(std::string_view text, std::uint64_t& number);
 
+/// The name that a key without globs and escapes means, if it is no number: all of it, or what follows `=`.
+std::string_view name_of_key(std::string_view key);
+
+/// True if a name is also a key, without globs and escapes, that means it.
+bool means_itself(std::string_view name);
+
 /// A name as a key that means it and nothing else.
 std::string escape_joint_name(std::string_view name);
 
@@ -69,7 +75,7 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> named(std::string_view name) const;
     /// The first joint of a name at or below `top` if there is one, else the first of all; kNone if there is none.
     [[nodiscard]] std::uint32_t find(std::string_view name, std::uint32_t top = kNone) const;
-    /// The joint that `#12` or a name means; kNone if there is none.
+    /// The joint that `#12`, `=Hips` or a name means; kNone if there is none.
     [[nodiscard]] std::uint32_t find_key(std::string_view key) const;
     /// In pre-order a joint's descendants are [joint, end).
     [[nodiscard]] std::uint32_t end(std::uint32_t joint) const { return ends_[joint]; }

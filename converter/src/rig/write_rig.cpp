@@ -199,9 +199,7 @@ private:
     /// As a chain's start, effector, target or pole, where nothing is escaped.
     [[nodiscard]] std::string name_of(std::uint32_t joint) const {
         const std::string_view name = object_.skeleton.joints[joint].name;
-        std::uint64_t number = 0;
-        const bool means_itself = is_named(joint) && !parse_joint_number(name, number);
-        return means_itself ? std::string(name) : '#' + std::to_string(joint);
+        return is_named(joint) && means_itself(name) ? std::string(name) : '#' + std::to_string(joint);
     }
 
     /// The entries of all clips that have markers.
@@ -234,9 +232,8 @@ private:
 
     [[nodiscard]] std::string clip_key(std::size_t number, const NameCounts& count) const {
         const std::string_view name = object_.clips[number].name;
-        std::uint64_t unused = 0;
-        const bool means_itself = !name.empty() && count.at(name) == 1 && !parse_joint_number(name, unused);
-        return means_itself ? std::string(name) : '#' + std::to_string(number);
+        const bool is_clear = !name.empty() && count.at(name) == 1 && means_itself(name);
+        return is_clear ? std::string(name) : '#' + std::to_string(number);
     }
 
     /// Those of all clips.

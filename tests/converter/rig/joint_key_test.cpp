@@ -87,11 +87,22 @@ TEST(RigJointKey, AllShortGlobsFitWhatTheyMean) {
 }
 
 TEST(RigJointKey, AnEscapedNameMeansItself) {
-    for (const std::string name : {"Knee", "a*b", R"(\)", "[x]", "?", "#7", "#", "#x", "*#7", "\xc3\xa4"}) {
+    for (const std::string name :
+         {"Knee", "a*b", R"(\)", "[x]", "?", "#7", "#", "#x", "*#7", "=", "=#7", "a=b", "\xc3\xa4"}) {
         const JointKey key = parse_joint_key(escape_joint_name(name), {});
         EXPECT_EQ(key.kind, Kind::name) << name;
         EXPECT_EQ(key.name, name);
     }
+}
+
+TEST(RigJointKey, WhatFollowsAnEqualsSignIsAName) {
+    for (const std::string name : {"Knee", "a*b", R"(\x)", "[", "#7", "=#7", "7"}) {
+        const JointKey key = parse_joint_key('=' + name, {});
+        EXPECT_EQ(key.kind, Kind::name) << name;
+        EXPECT_EQ(key.name, name);
+    }
+    EXPECT_TRUE(means_itself("7") && means_itself("#x") && means_itself("a=b"));
+    EXPECT_FALSE(means_itself("#7") || means_itself("=7"));
 }
 
 TEST(RigJointKey, EndlessWorkIsRefused) {

@@ -127,6 +127,8 @@ TEST(RigMarkers, AreWrittenAsTheyWere) {
     Scene scene = walker();
     scene.clips.push_back(clip_of("#1", 0.0f, 1.0f));
     scene.clips.push_back(clip_of("\"quoted\"\n", -1.0f, 1.0f));
+    scene.clips.push_back(clip_of("=#1", 0.0f, 1.0f));
+    scene.clips[6].markers = {{0.25f, "b"}};
     scene.clips[0].markers = {{0.0f, "step"}, {0.1f, "step"}, {0.1f, ""}, {std::nextafter(1.0f, 0.0f), "\xc3\xa9\""}};
     scene.clips[2].markers = {{1.0f / 3.0f, "second run"}};
     scene.clips[3].markers = {{1e-40f, "tiny"}, {3.9999f, "late"}};

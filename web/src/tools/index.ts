@@ -71,7 +71,7 @@ export async function convert(source: Source, options: ConvertOptions = {}): Pro
     file = main ?? Object.keys(source)[0] ?? '';
   }
   const request: Record<string, unknown> = { do: 'convert', file, ...others };
-  if (scene !== undefined) request['scene'] = String(scene);
+  if (scene !== undefined) request['scene'] = typeof scene === 'number' ? `#${scene}` : scene;
   if (compact === true) request['compact'] = true;
   if (typeof compact === 'string') request['maxError'] = compact;
   if (rig !== undefined) {

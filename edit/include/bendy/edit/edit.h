@@ -34,9 +34,9 @@ using Edited = Result<std::vector<std::byte>, Problem>;
 /// Returns true if all of `name` matches `pattern`; `*` stands for any bytes, `?` for one byte.
 bool matches(std::string_view pattern, std::string_view name);
 
-/// Returns the numbers of all things that `wanted` refers to: those with exactly this name; otherwise the one with this
-/// number ("#3"); otherwise, if it contains `*` or `?`, those that match it. If there are none, returns a problem that
-/// lists or suggests names. `kind` is the singular of what is named, as in "clip".
+/// Returns the numbers of all things that `wanted` refers to: see find_all_by_key. If there are none and `wanted`
+/// contains `*` or `?` but does not start with `=`, returns those whose names match it. If there are none either,
+/// returns a problem that lists or suggests names.
 Result<std::vector<std::size_t>, Problem> find_named(std::span<const std::string_view> names, std::string_view wanted,
                                                      std::string_view kind);
 
@@ -82,14 +82,14 @@ enum class Named : std::uint8_t { joint, clip, chain, mesh, target, material, te
 /// Renames things of one kind: a name that matches the first of a pair becomes the second. The first matching pair
 /// applies, and all pairs are matched against the names in the file, so two names can be swapped. A `*` in the first
 /// (at most one) stands for any bytes, and for the same bytes in the second: {"mixamorig:*", "*"} removes a prefix.
-/// "#3" is the thing with that number, whether or not it has a name.
+/// Numbers and exact names are written as for find_all_by_key: "#3", "=3".
 struct Rename {
     Named kind = Named::joint;
     std::vector<std::pair<std::string, std::string>> names;
     bool all_must_match = true;  ///< if false, a pair without a match is a warning instead of a problem
 };
 
-/// Parses "OLD=NEW", split at the first `=`.
+/// Parses "OLD=NEW", split at the first `=` that follows a name: "=0=Run" renames what is called "0".
 Result<std::pair<std::string, std::string>, Problem> parse_pair(std::string_view text);
 /// Parses "joint", "clip", ...
 Result<Named, Problem> parse_named(std::string_view word);

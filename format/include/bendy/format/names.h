@@ -1,14 +1,38 @@
 #pragma once
 
 #include <bendy/format/public.h>
+#include <bendy/format/result.h>
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-// Messages about names that a user mistyped.
+// How a user's text refers to a named and numbered thing, and messages about names that a user mistyped.
 namespace BENDY_PUBLIC bendy {
+
+/// What a text refers to. "#3" is the number 3, "=3" the name "3", "3" either of them; any other text is a name.
+struct ThingKey {
+    std::optional<std::string_view> name;  ///< a part of the text
+    std::optional<std::size_t> number;
+};
+ThingKey read_key(std::string_view text);
+
+/// A text that refers to nothing, or to two different things.
+struct KeyProblem {
+    std::string message;  ///< names are as in the file: escape them for a terminal
+    bool is_ambiguous = false;
+};
+
+/// Returns the numbers of all things that a text refers to: those with the name, in order, or the one with the number.
+/// `kind` is the singular of what is named, as in "clip".
+Result<std::vector<std::size_t>, KeyProblem> find_all_by_key(std::span<const std::string_view> names,
+                                                             std::string_view text, std::string_view kind);
+/// Returns the first of them. Whether a text is ambiguous depends on the first of each name alone.
+Result<std::size_t, KeyProblem> find_by_key(std::span<const std::string_view> names, std::string_view text,
+                                            std::string_view kind);
 
 /// Returns the name most similar to `wanted`; empty if none is similar.
 std::string_view nearest_name(std::span<const std::string_view> names, std::string_view wanted);
