@@ -16,6 +16,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -198,29 +199,59 @@ private:
         out_.meshes.push_back(std::move(mesh));
     }
 
-    /// Viewers look for the names of targets in extras.targetNames.
+    /// Viewers look for the names of targets in extras.targetNames. Blender does not import an empty one, and three.js
+    /// takes none of a list that is too short.
     void name_targets(Json& mesh, const Mesh& source, const std::string& place) {
-        Json names = Json::array();
-        bool any = false;
-        for (const MorphTarget& target : source.targets) {
-            names.push_back(target.name);
-            any = any || !target.name.empty();
-        }
-        if (!any) return;
+        const auto& targets = source.targets;
+        const auto is_unnamed = [](const MorphTarget& target) { return target.name.empty(); };
+        if (std::all_of(targets.begin(), targets.end(), is_unnamed)) return drop_empty_names(mesh);
         Json& extras = mesh["extras"];
         if (extras.is_null()) extras = Json::object();
-        if (extras.is_object()) {
-            Json& written = extras["targetNames"];
-            // What the source had may say more: names that are no names, or more of them than targets.
-            const auto is_said = [](const Json& name, const Json& said) {
-                return name == said || (name.get_ref<const std::string&>().empty() && !said.is_string());
-            };
-            const bool says_it = written.is_array() && written.size() >= names.size() &&
-                                 std::equal(names.begin(), names.end(), written.begin(), is_said);
-            if (!says_it) written = std::move(names);
-        } else {
+        if (!extras.is_object()) {
             report_.warn("names of targets left out: the mesh's extras are no object", place);
+            return;
         }
+        Json& written = extras["targetNames"];
+        // What the source had may say more: names that are no names, or more of them than targets.
+        const auto is_said = [](const MorphTarget& target, const Json& said) {
+            return target.name.empty() ? !said.is_string() : said.is_string() && said == Json(target.name);
+        };
+        const bool says_it = written.is_array() && written.size() >= targets.size() &&
+                             std::equal(targets.begin(), targets.end(), written.begin(), is_said);
+        if (!says_it) written = full_names(targets, place);
+    }
+
+    /// Names in the source's extras that are all empty.
+    static void drop_empty_names(Json& mesh) {
+        const auto extras = mesh.find("extras");
+        if (extras == mesh.end() || !extras->is_object()) return;
+        const auto names = extras->find("targetNames");
+        if (names == extras->end() || !names->is_array() || std::find(names->begin(), names->end(), "") == names->end())
+            return;
+        extras->erase(names);
+        if (extras->empty()) mesh.erase(extras);
+    }
+
+    /// The names of targets; one without a name is called target_NUMBER, or the next that is free.
+    Json full_names(const std::vector<MorphTarget>& targets, const std::string& place) {
+        std::unordered_set<std::string> taken;
+        for (const MorphTarget& target : targets) taken.insert(target.name);
+        Json names = Json::array();
+        std::uint64_t made = 0;
+        for (std::size_t number = 0; number < targets.size(); ++number) {
+            std::string name = targets[number].name;
+            if (name.empty()) {
+                name = "target_" + std::to_string(number);
+                while (!taken.insert(name).second) name += '_';
+                ++made;
+            }
+            names.push_back(std::move(name));
+        }
+        if (made != 0) {
+            report_.warn("a morph target without a name, in a mesh with named ones, is called target_NUMBER", place,
+                         made);
+        }
+        return names;
     }
 
     void write_primitives(const Mesh& mesh, std::uint32_t number, Json& out) {

@@ -365,6 +365,33 @@ TEST(ExportGltf, MoreThanFourInfluencesTakeSeveralSets) {
     EXPECT_EQ(again.weights, mesh.weights);
 }
 
+TEST(ExportGltf, ATargetBesideNamedOnesGetsAName) {
+    const auto written = [](const std::vector<std::string>& names, const std::string& extras, std::uint64_t unnamed) {
+        Scene scene = triangle();
+        scene.meshes[0].extras = extras;
+        for (const std::string& name : names) {
+            MorphTarget target;
+            target.name = name;
+            target.positions.assign(3, glm::vec3(0.0f, 0.0f, 1.0f));
+            scene.meshes[0].targets.push_back(target);
+        }
+        const Exported exported = export_scene(scene);
+        EXPECT_EQ(exported.warns("a morph target without a name"), unnamed != 0);
+        const json& mesh = exported.document["meshes"][0];
+        return mesh.contains("extras") ? mesh["extras"] : json();
+    };
+    EXPECT_EQ(written({"Smile", "", "Frown"}, "", 1), json::parse(R"({"targetNames":["Smile","target_1","Frown"]})"));
+    EXPECT_EQ(written({"Smile", ""}, R"({"targetNames":["Smile"]})", 1),
+              json::parse(R"({"targetNames":["Smile","target_1"]})"));
+    EXPECT_EQ(written({"target_1", "", ""}, R"({"targetNames":["target_1","",""]})", 2),
+              json::parse(R"({"targetNames":["target_1","target_1_","target_2"]})"));
+    EXPECT_EQ(written({"Smile", ""}, R"({"targetNames":["Smile",null]})", 0),
+              json::parse(R"({"targetNames":["Smile",null]})"));
+    EXPECT_EQ(written({"", ""}, "", 0), json());
+    EXPECT_EQ(written({"", ""}, R"({"targetNames":["",""]})", 0), json());
+    EXPECT_EQ(written({"", ""}, R"({"targetNames":["",""],"x":1})", 0), json::parse(R"({"x":1})"));
+}
+
 TEST(ExportGltf, EveryExtensionThatIsUsedIsListed) {
     Scene scene = triangle();
     scene.extensions = R"({"KHR_a":{"deep":[{"extensions":{"KHR_b":{}}}],"extras":{"extensions":{"KHR_no":{}}}}})";
