@@ -3,19 +3,24 @@
 #include "handles.h"
 #include "lookup.h"
 
+#include <bendy/format/names.h>
+
 #include <algorithm>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace bendy::capi {
 namespace {
 
-/// `there is no clip "Rum"; there are: "Walk", "Run"`
+/// `there is no clip "Rum"; did you mean "Run"? There are: "Walk", "Run"`
 std::string not_found(std::string_view kind, std::string_view name, const std::vector<std::string>& names) {
     constexpr std::size_t kEnough = 400;  // what a message shows
     std::string text = "there is no " + std::string(kind) + " \"" + std::string(name) + '"';
     if (names.empty()) return text + ", the model has none at all";
-    text += names.size() == 1 ? "; there is: " : "; there are: ";
+    const std::string suggestion = did_you_mean(std::vector<std::string_view>(names.begin(), names.end()), name);
+    text += suggestion + (suggestion.empty() ? "; there " : " There ") + (names.size() == 1 ? "is: " : "are: ");
     for (std::size_t k = 0; k < names.size(); ++k) {
         if (text.size() > kEnough) return text + ", ...";
         text += (k == 0 ? "\"" : ", \"") + names[k] + '"';

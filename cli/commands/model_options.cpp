@@ -78,25 +78,27 @@ std::string in_millimetres(float metres) {
     return text.str() + " mm";
 }
 
-/// What is left between the tip and its target.
+/// What is left between the tip and its target. An aim turns the tip and does not bring it nearer.
 std::string gap_of(const ReachGoal& goal, const ReachResult& result) {
     std::string gap = in_millimetres(result.distance);
     if (result.status == ReachStatus::aimed) return gap + " away";
-    if (!goal.target.rotation) return gap;
     std::ostringstream angle;
-    angle << std::setprecision(3) << result.angle * 57.29578f;
-    return gap + " and " + angle.str() + " degrees";
+    angle << std::setprecision(3) << result.angle * 57.29578f << " degrees";
+    if (goal.is_aim) return angle.str();
+    return goal.target.rotation ? gap + " and " + angle.str() : gap;
 }
 
-bool is_worse(const Reached& a, const Reached& b) {
+bool is_worse(const Reached& a, const Reached& b, bool is_aim) {
     const auto rank = [](const Reached& result) { return !result ? 2 : has_reached(result) ? 0 : 1; };
     if (rank(a) != rank(b)) return rank(a) > rank(b);
     if (!a) return false;
+    if (is_aim) return a->angle > b->angle;
     return a->distance != b->distance ? a->distance > b->distance : a->angle > b->angle;
 }
 
 /// CHAIN=X,Y,Z or CHAIN=X,Y,Z,QX,QY,QZ,QW.
-ReachGoal parse_goal(const std::string& text, const std::filesystem::path& file, const Model& model) {
+/// \param solver  of the option; Solver::any: the chain's own
+ReachGoal parse_goal(const std::string& text, Solver solver, const std::filesystem::path& file, const Model& model) {
     const std::size_t equals = text.rfind('=');
     const std::vector<float> n =
         equals == std::string::npos ? std::vector<float>() : read_numbers(std::string_view(text).substr(equals + 1));
@@ -111,7 +113,8 @@ ReachGoal parse_goal(const std::string& text, const std::filesystem::path& file,
             throw CLI::ValidationError("--reach", "the rotation must be a unit quaternion x y z w");
         target.rotation = glm::normalize(rotation);
     }
-    return {&find_chain(file, model, text.substr(0, equals)), target};
+    const Chain& chain = find_chain(file, model, text.substr(0, equals));
+    return {&chain, target, (solver == Solver::any ? chain.solver : solver) == Solver::aim};
 }
 
 }  // namespace
@@ -210,7 +213,8 @@ bool has_reached(const Reached& result) {
 
 std::vector<ReachGoal> find_goals(const ReachRequest& request, const std::filesystem::path& file, const Model& model) {
     std::vector<ReachGoal> goals;
-    for (const std::string& text : request.targets) goals.push_back(parse_goal(text, file, model));
+    for (const std::string& text : request.targets)
+        goals.push_back(parse_goal(text, find_solver(request.solver), file, model));
     return goals;
 }
 
@@ -229,12 +233,12 @@ std::vector<Reached> reach_goals(const ReachRequest& request, const std::vector<
     return results;
 }
 
-void ReachTally::add(const std::vector<Reached>& results, float time) {
+void ReachTally::add(const std::vector<ReachGoal>& goals, const std::vector<Reached>& results, float time) {
     counts_.resize(results.size());
     for (std::size_t k = 0; k < results.size(); ++k) {
         Count& count = counts_[k];
         if (!has_reached(results[k])) ++count.short_ones;
-        if (count.poses++ != 0 && !is_worse(results[k], count.worst)) continue;
+        if (count.poses++ != 0 && !is_worse(results[k], count.worst, goals[k].is_aim)) continue;
         count.worst = results[k];
         count.time = time;
     }

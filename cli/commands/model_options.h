@@ -54,6 +54,7 @@ void add_reach(CLI::App& command, ReachRequest& request);
 struct ReachGoal {
     const Chain* chain = nullptr;
     ReachTarget target;
+    bool is_aim = false;  ///< the tip is to point at the target, at any distance
 };
 
 /// The chains and targets that are asked for. CHAIN is a chain's name or number, see find_by_key, or the name of
@@ -72,7 +73,7 @@ std::vector<Reached> reach_goals(const ReachRequest& request, const std::vector<
 class ReachTally {
 public:
     /// \param time  of the clip, seconds
-    void add(const std::vector<Reached>& results, float time);
+    void add(const std::vector<ReachGoal>& goals, const std::vector<Reached>& results, float time);
     /// Says on standard error how near each chain came: a warning where it falls short.
     void print(const std::filesystem::path& file, const Model& model, const std::vector<ReachGoal>& goals) const;
 

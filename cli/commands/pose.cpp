@@ -54,7 +54,8 @@ struct PosedReach {
     std::string chain;  ///< its name, or its number
     ReachTarget target;
     float distance = 0.0f;  ///< metres left
-    float angle = 0.0f;     ///< radians left, where the target has a rotation
+    float angle = 0.0f;     ///< radians left, where the target has a rotation; of an aim always
+    bool is_aim = false;
     bool is_reached = false;
 };
 
@@ -159,7 +160,7 @@ void put_reaches(std::string& out, std::span<const PosedReach> reaches) {
         }
         out += ",\"distance\":";
         put_finite(out, reach.distance);
-        if (reach.target.rotation) {
+        if (reach.target.rotation || reach.is_aim) {
             out += ",\"angle\":";
             put_finite(out, reach.angle);
         }
@@ -261,7 +262,7 @@ std::string write_ply(const PosedObject& object) {
 
 /// {"file", "clip", "time", "joints": [{"name", "world"}], "meshes": [{"name", "positions", "normals", "indices"}]};
 /// and where chains were to reach targets "reaches": [{"chain", "target", "distance", "reached"}] after "time", with
-/// "rotation" and "angle" where the target has a rotation. Where the clip has curves, before "joints"
+/// "rotation" where the target has one, and "angle" there and for an aim. Where the clip has curves, before "joints"
 /// "curves": [{"name", "path", "value"}], with "target": {KIND: number} where it has one.
 std::string write_json(const PosedObject& object) {
     std::string out = "{\"file\":" + quoted(object.file) +
@@ -317,14 +318,14 @@ std::vector<PosedReach> reach_chains(const PoseArguments& arguments, Pose& pose)
     const std::vector<ReachGoal> goals = find_goals(arguments.reach, arguments.file, pose.model());
     const std::vector<Reached> results = reach_goals(arguments.reach, goals, pose);
     ReachTally tally;
-    tally.add(results, arguments.time);
+    tally.add(goals, results, arguments.time);
     tally.print(arguments.file, pose.model(), goals);
     std::vector<PosedReach> reaches;
     for (std::size_t k = 0; k < goals.size(); ++k) {
         const Chain& chain = *goals[k].chain;
         const ReachResult result = results[k].value_or(ReachResult());
         reaches.push_back({chain.name.empty() ? std::to_string(chain.number) : std::string(chain.name), goals[k].target,
-                           result.distance, result.angle, has_reached(results[k])});
+                           result.distance, result.angle, goals[k].is_aim, has_reached(results[k])});
     }
     return reaches;
 }
@@ -410,7 +411,8 @@ void add_pose(CLI::App& program) {
     command->footer(
         "OUT.json holds file, clip and time; joints: name and world, the matrix in model space, column by column; "
         "meshes: name, positions, normals and indices of triangles. After --reach also reaches, one for each target: "
-        "chain, target, distance (metres left), reached; with an orientation also rotation and angle (radians left). "
+        "chain, target, distance (metres left), reached; with an orientation also rotation, and with it or for an aim "
+        "angle (radians left). "
         "Where the clip has named curves also curves: name, path, target (kind and number), value.\n"
         "Example: bendy pose fox.bendy --clip Run --time 0.35 -o run.obj\n"
         "         bendy pose robot.bendy --reach LeftArm=0.3,1.2,0.4 -o reach.obj");

@@ -125,7 +125,7 @@ public:
 
     viewer::Picture draw(float time) {
         viewer::Picture picture = maker_.draw(time);
-        tally_.add(results_, time);
+        tally_.add(goals_, results_, time);
         return picture;
     }
     viewer::Picture draw_nothing() { return maker_.draw_nothing(); }
@@ -186,8 +186,11 @@ std::vector<std::byte> draw_all(RenderArguments& arguments, const Model& model, 
     const bool is_animation = format != "png";
     viewer::RenderOptions& render = arguments.render;
     if (arguments.has_clip) render.clip = &find_clip(arguments.clip, arguments.file, model);
+    if (model.clips().empty() && (is_animation || arguments.frames != 0)) {
+        fail(arguments.file, std::string("there is no clip for ") + (is_animation ? "an animation" : "--frames") +
+                                 "; OUT.png without --frames shows the rest pose");
+    }
     if (render.clip == nullptr && (is_animation || arguments.frames > 1)) {
-        if (model.clips().empty()) fail(arguments.file, "there is no clip to show in several frames");
         render.clip = model.clips().data();
     }
     if (is_animation && arguments.frames == 0) arguments.frames = default_frames(*render.clip);

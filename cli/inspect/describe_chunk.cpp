@@ -241,7 +241,7 @@ std::uint64_t track_count(const PackedView& packed) {
 std::string packed_text(const ChunkTree& tree, std::uint32_t number) {
     const auto packed = packed_at(tree, number);
     if (!packed) return {};
-    std::string text = grouped(track_count(*packed)) + " tracks, " + grouped(packed->record.frames) + " frames";
+    std::string text = counted(track_count(*packed), "track") + ", " + counted(packed->record.frames, "frame");
     if (packed->is_even()) text += ", " + brief(packed->record.frame_rate) + " frames/s";
     return text;
 }
@@ -307,10 +307,13 @@ std::string clip_text(const ChunkTree& tree, std::uint32_t number) {
     std::uint64_t frames = 0;
     for (const PlayRecord& play : plays_at(tree, tree.find(number, FourCC("PLAY"))))
         frames = std::max(frames, std::uint64_t{play.frames});
-    std::string text = brief(info.start) + " to " + brief(info.end) + " s, ";
-    if (frames != 0) text += counted(frames, "frame");
-    if (frames != 0 && tracks != 0) text += ", ";
-    if (frames == 0 || tracks != 0) text += grouped(tracks) + " tracks";
+    const auto children = tree.children(number);
+    const auto curves = std::count_if(children.begin(), children.end(),
+                                      [&](std::uint32_t child) { return tree[child].id == FourCC("CURV"); });
+    std::string text = brief(info.start) + " to " + brief(info.end) + " s";
+    if (frames != 0) text += ", " + counted(frames, "frame");
+    if (tracks != 0 || (frames == 0 && curves == 0)) text += ", " + counted(tracks, "track");
+    if (curves != 0) text += ", " + counted(static_cast<std::uint64_t>(curves), "curve");
     if (info.loop != 0) text += ", repeats";
     if (info.frame_rate > 0.0f) text += ", " + brief(info.frame_rate) + " frames/s";
     const std::size_t markers = markers_at(tree, tree.find(number, FourCC("MARK"))).size();
@@ -408,7 +411,7 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
     if (chunk.id == FourCC("CYCL")) return clip_text(tree, number);
     if (chunk.id == FourCC("PACK")) return packed_text(tree, number);
     if (chunk.id == FourCC("MARK")) return markers_text(tree, number);
-    if (chunk.id == FourCC("TRAK")) return grouped(tree.payload(number).size() / sizeof(TrackRecord)) + " tracks";
+    if (chunk.id == FourCC("TRAK")) return counted(tree.payload(number).size() / sizeof(TrackRecord), "track");
     if (chunk.id == FourCC("TIME") || chunk.id == FourCC("KEYV"))
         return grouped(tree.payload(number).size() / sizeof(float)) + " f32";
     if (chunk.id == FourCC("MATE"))

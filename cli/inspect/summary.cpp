@@ -230,7 +230,9 @@ void add_contents(const Summary& summary, Lines& lines) {
     add_morph_targets(summary, lines);
     lines.add("clips",
               listed(summary.clips, grouped(summary.clips.size()), [](const Summary::ClipLine& clip, std::size_t k) {
-                  return label_of(clip.name, k) + ' ' + brief(clip.end - clip.start) + " s";
+                  std::string label = label_of(clip.name, k) + ' ' + brief(clip.end - clip.start) + " s";
+                  if (clip.start == 0.0f) return label;
+                  return label + " (" + brief(clip.start) + " to " + brief(clip.end) + " s)";
               }));
     add_surfaces(summary, lines);
     add_bounds(summary, lines);

@@ -182,17 +182,63 @@ public:
 
     /// Joints and meshes that clips animate and that there are not here; joints whose rest poses differ.
     void warn(std::span<const bool> is_animated, Log& log) const {
-        std::vector<std::size_t> missing;
-        for (std::size_t j = 0; j < map_.joints.size(); ++j) {
-            if (is_animated[j] && map_.joints[j] == kNone) missing.push_back(j);
+        const Unpaired unpaired = find_unpaired(is_animated);
+        const auto list = [&](const std::vector<std::size_t>& joints) {
+            return std::to_string(joints.size()) + (joints.size() == 1 ? " joint: " : " joints: ") +
+                   list_names(names_of(there_.skeleton.joints), joints, 20);
+        };
+        if (!unpaired.missing.empty()) {
+            log.warnings.push_back("there is no joint here for the tracks of " + list(unpaired.missing) +
+                                   explain(unpaired.missing.front()));
         }
-        if (!missing.empty()) {
-            log.warnings.push_back("there is no joint here for the tracks of " + std::to_string(missing.size()) +
-                                   (missing.size() == 1 ? " joint: " : " joints: ") +
-                                   list_names(names_of(there_.skeleton.joints), missing, 20) +
-                                   explain(missing.front()));
+        if (!unpaired.shared.empty()) {
+            log.warnings.push_back("it is not clear which joints here are meant by the tracks of " +
+                                   list(unpaired.shared) + "; " + explain_shared(unpaired.shared.front()));
         }
         warn_of_rests(log);
+    }
+
+    /// Animated joints there that have no counterpart here.
+    struct Unpaired {
+        std::vector<std::size_t> missing;  ///< their names are not here
+        std::vector<std::size_t> shared;   ///< their names are here, but several joints have them
+    };
+    [[nodiscard]] Unpaired find_unpaired(std::span<const bool> is_animated) const {
+        std::set<std::string_view> here;
+        for (const JointView& joint : here_.skeleton.joints) here.insert(joint.name);
+        Unpaired unpaired;
+        for (std::size_t j = 0; j < map_.joints.size(); ++j) {
+            if (!is_animated[j] || map_.joints[j] != kNone) continue;
+            const std::string_view name = there_.skeleton.joints[j].name;
+            (!name.empty() && here.contains(name) ? unpaired.shared : unpaired.missing).push_back(j);
+        }
+        return unpaired;
+    }
+
+    /// Which joints have the name of one there, and what helps.
+    [[nodiscard]] std::string explain_shared(std::size_t animated) const {
+        const std::string_view name = there_.skeleton.joints[animated].name;
+        const auto numbers_in = [&](const ObjectView& object) {
+            std::vector<std::size_t> numbers;
+            for (std::size_t j = 0; j < object.skeleton.joints.size(); ++j) {
+                if (object.skeleton.joints[j].name == name) numbers.push_back(j);
+            }
+            return numbers;
+        };
+        const auto here = numbers_in(here_);
+        const auto there = numbers_in(there_);
+        constexpr std::size_t kShown = 4;
+        const auto count = [&](const std::vector<std::size_t>& numbers, const char* where) {
+            std::string text = std::to_string(numbers.size()) + (numbers.size() == 1 ? " joint " : " joints ") + where;
+            for (std::size_t k = 0; k < std::min(numbers.size(), kShown); ++k)
+                text += (k == 0 ? " (#" : ", #") + std::to_string(numbers[k]);
+            return text + (numbers.size() > kShown ? ", ...)" : ")");
+        };
+        const bool is_ours = here.size() > 1;
+        return '"' + std::string(name) + "\" is the name of " + count(here, "here") + " and of " +
+               count(there, "in the other file") + "; rename all but one " +
+               (is_ours ? "here first, as in #" + std::to_string(here.back()) + "=NEW"
+                        : "there first, as in #" + std::to_string(there.back()) + "=NEW");
     }
 
     /// A suggestion if the names of joints differ by more than chance.
@@ -349,12 +395,15 @@ private:
     }
 
     [[nodiscard]] Problem nothing_fits() const {
-        std::vector<std::size_t> missing;
         const auto animated = std::make_unique<bool[]>(from_.skeleton.joints.size());
+        const std::span<bool> is_animated(animated.get(), from_.skeleton.joints.size());
         std::set<std::uint32_t> meshes;
-        mark_animated(from_, std::span(animated.get(), from_.skeleton.joints.size()), meshes);
-        for (std::size_t j = 0; j < from_.skeleton.joints.size(); ++j) {
-            if (animated[j]) missing.push_back(j);
+        mark_animated(from_, is_animated, meshes);
+        const auto [missing, shared] = pairing_.find_unpaired(is_animated);
+        if (!shared.empty()) {
+            return {"its clips animate " + std::to_string(missing.size() + shared.size()) +
+                    (missing.size() + shared.size() == 1 ? " joint" : " joints") +
+                    ", and it is not clear which one here is meant: " + pairing_.explain_shared(shared.front())};
         }
         if (missing.empty()) return {"its clips animate nothing that is here"};
         return {"its clips animate " + std::to_string(missing.size()) +
@@ -383,11 +432,22 @@ private:
             rewrite_.insert_after(to_.clips.back().chunk, std::move(chunk));
         }
         log_.done.push_back(
-            (replaces ? "replaced clip \"" : "merged clip \"") + name + "\": " + std::to_string(counts.stay) +
-            (counts.stay == 1 ? " track" : " tracks") +
+            (replaces ? "replaced clip \"" : "merged clip \"") + name + "\": " + contents_of(clip, counts) +
             (counts.go == 0 ? "" : ", " + std::to_string(counts.go) + " left out") +
             (counts.decoded == 0 ? "" : ", " + std::to_string(counts.decoded) + " decoded, for another rest pose"));
         return {};
+    }
+
+    /// "3 tracks, 1 curve": what of a clip is merged.
+    [[nodiscard]] std::string contents_of(const ClipView& clip, const TrackCounts& counts) const {
+        std::size_t curves = 0;
+        for (const std::uint32_t child : there_.tree.children(clip.chunk))
+            curves += there_.tree[child].id == FourCC("CURV") && !sending_.is_removed(child) ? 1 : 0;
+        const auto counted = [](std::size_t count, const char* what) {
+            return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+        };
+        if (curves == 0) return counted(counts.stay, "track");
+        return (counts.stay == 0 ? "" : counted(counts.stay, "track") + ", ") + counted(curves, "curve");
     }
 
     /// A file with clips that are not exact is not exact.

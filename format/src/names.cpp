@@ -115,8 +115,14 @@ Result<std::size_t, KeyProblem> find_by_key(std::span<const std::string_view> na
 }
 
 std::string_view nearest_name(std::span<const std::string_view> names, std::string_view wanted) {
-    if (wanted.empty() || wanted.size() > kLongest) return {};
+    if (wanted.empty()) return {};
     const std::string asked = lowered(wanted);
+    const auto differs_in_case = [&](std::string_view name) {
+        return name.size() == asked.size() && lowered(name) == asked;
+    };
+    const auto same = std::find_if(names.begin(), names.end(), differs_in_case);
+    if (same != names.end()) return *same;
+    if (wanted.size() > kLongest) return {};
     std::string_view nearest;
     std::size_t best = kLongest + 1;
     for (const std::string_view name : names) {

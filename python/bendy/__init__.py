@@ -320,7 +320,7 @@ class Chunk:
 
 def open(source, *, object=0, check_sums=True, copied=False, root=None):
     """Opens a character. A path is mapped; what is no bendy file (glTF, X-files, Quake II models) is converted in memory, and
-    Model.conversion has the warnings.
+    Model.conversion has the warnings. Of files that nothing reads (FBX, USD, ...) the ConversionError says what they are.
 
     object: which object of the file. check_sums: False defers the check of all bytes to Model.check_sums. copied: True reads a path
     into memory, for files that another program may make shorter, which ends a program that has them mapped. root: as for convert.
@@ -331,7 +331,7 @@ def open(source, *, object=0, check_sums=True, copied=False, root=None):
         return source
     found = _bendy.Source.read(source) if copied and isinstance(source, (str, _os.PathLike)) else _source(source)
     conversion = None
-    if found.format in ("gltf", "x", "md2"):
+    if found.is_converted:
         conversion = convert(source, root=root)
         found = conversion._source
     model = Model(found, object, check_sums)
@@ -547,7 +547,7 @@ def _source(source):
 def _bendy_source(source):
     """The same, of a bendy file; other formats are converted in memory."""
     found = _source(source)
-    return convert(source)._source if found.format in ("gltf", "x", "md2") else found
+    return convert(source)._source if found.is_converted else found
 
 
 def _must_exist(path):

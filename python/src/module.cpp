@@ -40,24 +40,6 @@ std::shared_ptr<const Source> copy_bytes(const py::buffer& buffer, const std::fi
     return std::make_shared<const Source>(std::move(bytes), name);
 }
 
-/// "bendy", "gltf", "x", "md2"; "other": a file that is known to be something else; "unknown".
-const char* format_of(const Source& source) {
-    const auto kind = converter::find_file_kind(source.bytes(), source.file());
-    if (!kind) return "unknown";
-    if (!kind->format) return "other";
-    switch (*kind->format) {
-        case converter::SourceFormat::gltf:
-            return "gltf";
-        case converter::SourceFormat::bendy:
-            return "bendy";
-        case converter::SourceFormat::x:
-            return "x";
-        case converter::SourceFormat::md2:
-            return "md2";
-    }
-    return "unknown";
-}
-
 void bind_source(py::module_& module) {
     py::class_<Source, std::shared_ptr<Source>>(module, "Source", "The bytes of a file, mapped or in memory.")
         .def_static(
@@ -92,8 +74,8 @@ void bind_source(py::module_& module) {
         .def_property_readonly(
             "is_mapped", [](const Source& self) { return self.is_mapped(); }, "Whether the bytes are a mapped file.")
         .def_property_readonly(
-            "format", [](const Source& self) { return format_of(self); },
-            "What the bytes are: bendy, gltf, x, md2, other or unknown.")
+            "is_converted", [](const Source& self) { return converter::is_converted(self.bytes(), self.file()); },
+            "Whether the bytes are to be converted to a bendy file, or else to be opened as one.")
         .def(
             "write",
             [](const Source& self, const std::filesystem::path& file) {

@@ -26,6 +26,7 @@ struct PyReachResult {
     bool reached = false;
     float distance = 0.0f, angle = 0.0f;
     std::uint32_t iterations = 0;
+    bool is_aim = false;
 };
 
 // Arrays of local transforms.
@@ -227,11 +228,14 @@ ReachTarget target_of(const py::object& position, const py::object& rotation) {
     return target;
 }
 
-PyReachResult result_of(const ReachResult& result) {
+PyReachResult result_of(const ReachResult& result, bool is_aim) {
     constexpr std::array<const char*, 4> kNames{"reached", "out_of_reach", "not_reached", "aimed"};
     return {kNames.at(static_cast<std::size_t>(result.status)),
-            result.status == ReachStatus::reached || result.status == ReachStatus::aimed, result.distance, result.angle,
-            result.iterations};
+            result.status == ReachStatus::reached || result.status == ReachStatus::aimed,
+            result.distance,
+            result.angle,
+            result.iterations,
+            is_aim};
 }
 
 PyReachResult reach_target(PyPose& self, const py::object& chain, const py::object& position,
@@ -254,7 +258,7 @@ PyReachResult reach_target(PyPose& self, const py::object& chain, const py::obje
     }
     const auto result = without_gil([&] { return reach(*pose, &found, target, options); });
     if (!result) raise_call(result.error());
-    return result_of(*result);
+    return result_of(*result, (options.solver == Solver::any ? found.solver : options.solver) == Solver::aim);
 }
 
 // Blending.
@@ -354,11 +358,14 @@ void bind_results(py::module_& module) {
                       "solution found; aimed: the tip points at the target.")
         .def_readonly("reached", &PyReachResult::reached, "Whether the status is reached or aimed.")
         .def_readonly("distance", &PyReachResult::distance, "Metres left between the tip and the target.")
-        .def_readonly("angle", &PyReachResult::angle, "Radians left, if the target has a rotation.")
+        .def_readonly("angle", &PyReachResult::angle,
+                      "Radians left, if the target has a rotation; of an aim, between the tip's Z axis and the line to "
+                      "the target.")
         .def_readonly("iterations", &PyReachResult::iterations, "Number of iterations made.")
         .def("__bool__", [](const PyReachResult& self) { return self.reached; })
         .def("__repr__", [](const PyReachResult& self) {
-            return py::str("<bendy.ReachResult {}, {:.6g} m left>").format(self.status, self.distance);
+            return self.is_aim ? py::str("<bendy.ReachResult {}, {:.6g} rad left>").format(self.status, self.angle)
+                               : py::str("<bendy.ReachResult {}, {:.6g} m left>").format(self.status, self.distance);
         });
 }
 

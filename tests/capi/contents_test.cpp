@@ -125,7 +125,7 @@ TEST_F(CContents, NamesAreFoundAndMissingOnesSayWhatThereIs) {
     EXPECT_EQ(bendy_find_clip(model_.get(), "Run", &error_), BENDY_NONE);
     EXPECT_EQ(error_.status, BENDY_NOT_FOUND);
     EXPECT_STREQ(error_.code, "NOT_FOUND");
-    EXPECT_STREQ(error_.message, "there is no clip \"Run\"; there is: \"run\"");
+    EXPECT_STREQ(error_.message, "there is no clip \"Run\"; did you mean \"run\"? There is: \"run\"");
 }
 
 TEST(CVersion, IsTheProjects) {

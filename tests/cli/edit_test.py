@@ -16,6 +16,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
 from chunk_file import Chunk  # noqa: E402
+from gltf_file import GltfFile  # noqa: E402
 from program import SOURCE, Case, main  # noqa: E402
 
 FORMS = {"plain": [], "compact": ["--compact"], "lod": ["--lod"], "lod_compact": ["--lod", "--compact"]}
@@ -422,6 +423,37 @@ class Merge(EditCase):
             for name, world in self.worlds(merged, *clip).items():
                 for x, y in zip(world, expected[name]):
                     self.assertAlmostEqual(x, y, delta=1e-5)
+
+    def two_characters(self):
+        """Two characters that have joints of the same names below roots of their own, and a motion of such joints."""
+        for name, roots in (("two.gltf", ["Alice", "Bob"]), ("motion.gltf", ["Carol"])):
+            file = GltfFile(nodes=[], scenes=[{"nodes": [3 * k for k in range(len(roots))]}])
+            for k, root in enumerate(roots):
+                file.document["nodes"] += [{"name": root, "children": [3 * k + 1]}, {"name": "Hips", "children": [3 * k + 2]},
+                                           {"name": f"Tail{k + 1}", "translation": [0, 1, 0]}]
+            times = file.add([(0,), (1,)], "SCALAR")
+            values = file.add([(0, 1, 0), (0, 3, 0)], "VEC3")
+            if len(roots) == 1:
+                file.document["animations"] = [{
+                    "name": "wag", "samplers": [{"input": times, "output": values}],
+                    "channels": [{"sampler": 0, "target": {"node": node, "path": "translation"}} for node in (1, 2)]}]
+            file.write(self.folder / name)
+            self.done("convert", name)
+        return "two.bendy", "motion.bendy"
+
+    def test_joints_that_several_have_the_name_of_are_named(self):
+        two, motion = self.two_characters()
+        self.edit(two, "--merge", motion)  # Tail1 is there once
+        self.assertIn('it is not clear which joints here are meant by the tracks of 1 joint: "Hips"; "Hips" is the name of 2 joints '
+                      "here (#1, #4) and of 1 joint in the other file (#1); rename all but one here first, as in #4=NEW", self.warned)
+        self.assertNotIn("there is no joint here", self.warned)
+        gone = ["--rename-joint", "Tail1=Other"]
+        self.assertIn('its clips animate 2 joints, and it is not clear which one here is meant: "Hips" is the name of 2 joints here',
+                      self.failed("edit", two, "-o", "x.bendy", *gone, "--merge", motion))
+        merged = self.edit(two, "--rename-joint", "#4=Hips of Bob", "--merge", motion)
+        self.assertNotIn("Hips", self.warned)
+        self.assertIn('merged clip "wag": 2 tracks', self.told)
+        self.assertEqual([joint["world"][13] for joint in self.pose(merged, "--clip", "wag", "--time", "1")["joints"]], [0, 3, 6, 0, 0, 1])
 
     def test_weights_go_by_the_names_of_targets(self):
         def swap(document):

@@ -14,6 +14,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
 from chunk_file import Chunk  # noqa: E402
+from gltf_file import GltfFile  # noqa: E402
 from mesh_file import as_float, floats  # noqa: E402
 from program import SOURCE, Case, main  # noqa: E402
 
@@ -46,6 +47,17 @@ class Inspect(Case):
         self.assertTrue(all(line.split()[0] in places for line in folded))
         self.assertIn("mixamorig:LeftHand", "\n".join(folded))
         self.assertIn("Walk", "\n".join(folded))
+
+    def test_a_clip_of_curves_alone_has_no_zero_tracks(self):
+        file = GltfFile(scenes=[{"nodes": [0]}], nodes=[{"name": "lamp"}], extensionsUsed=["KHR_animation_pointer"])
+        sampler = {"input": file.add([(0,), (1,)], "SCALAR"), "output": file.add([(0,), (1,)], "SCALAR")}
+        file.document["animations"] = [{"name": "glow", "samplers": [sampler], "channels": [{"sampler": 0, "target": {
+            "path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": "/extras/glow"}}}}]}]
+        file.write(self.folder / "lamp.gltf")
+        self.done("convert", "lamp.gltf", "-o", "lamp.bendy")
+        self.assertRegex(self.done("inspect", "lamp.bendy").decode(), r'CYCL 0  "glow"  0 to 1 s, 1 curve\n')
+        told = self.done("edit", "lamp.bendy", "-o", "two.bendy", "--merge", "lamp.bendy", "--same-name", "number").decode()
+        self.assertIn('merged clip "glow.001": 1 curve\n', told)
 
     def test_json_has_every_chunk_with_its_place(self):
         for path in self.good_files():

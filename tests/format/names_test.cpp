@@ -64,5 +64,15 @@ TEST(Names, FaultsSayHowToWriteIt) {
               "there is no clip \"3\"; there are \"1\", \"0\" and \"#9\"");
 }
 
+TEST(Names, ANameInAnotherCaseIsSuggestedHoweverLong) {
+    for (const std::size_t length : {std::size_t{4}, std::size_t{1000}}) {
+        const std::string name(length, 'a');
+        const std::string similar = name + 'b';
+        const std::vector<std::string_view> names{similar, name};
+        EXPECT_EQ(nearest_name(names, std::string(length, 'A')), name);
+    }
+    EXPECT_EQ(nearest_name(std::vector<std::string_view>{std::string_view()}, "A"), "");
+}
+
 }  // namespace
 }  // namespace bendy::names_test

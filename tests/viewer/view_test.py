@@ -258,7 +258,7 @@ class Render(WithFolder):
         bad = self.folder / "bad.bendy"
         bad.write_bytes((self.folder / "tentacle.bendy").read_bytes()[:5000])
         self.refused(1, "bad.bendy: ", bad)
-        self.refused(1, "there is no clip to show in several frames", self.folder / "surfaces.bendy", "--frames", "3")
+        self.refused(1, "there is no clip for --frames; OUT.png without --frames shows the rest pose", self.folder / "surfaces.bendy", "--frames", "3")
 
     def test_an_output_that_cannot_be_written(self):
         done = bendy("render", self.folder / "tentacle.bendy", "-o", self.folder / "none/out.png", "--size", "9x9")
@@ -337,6 +337,17 @@ class Reach(WithFolder):
             self.assertEqual([round(number, 6) for number in entry["target"]], [3, 1.2, 0])
             shown = int(said.partition("target by ")[2].partition(" mm")[0])
             self.assertAlmostEqual(1000 * entry["distance"], shown, delta=0.51)
+
+    def test_an_aim_that_falls_short_is_told_in_degrees(self):
+        goal = ["--reach", "IK_LeftArm=1,1.2,-3", "--solver", "aim"]
+        _, said = self.draw(*goal)
+        self.assertRegex(said, r"^bendy: warning: .*: reach: IK_LeftArm \(moves [^)]+\) falls short of its target by [\d.]+ degrees\n$")
+        done = bendy("pose", self.folder / "mannequin.bendy", *goal, "-o", self.folder / "aim.json")
+        self.assertEqual((done.returncode, done.stderr), (0, said))
+        (entry,) = json.loads((self.folder / "aim.json").read_bytes())["reaches"]
+        self.assertEqual(list(entry), ["chain", "target", "distance", "angle", "reached"])
+        shown = float(said.partition("target by ")[2].partition(" degrees")[0])
+        self.assertAlmostEqual(math.degrees(entry["angle"]), shown, delta=0.51)
 
     def test_json_of_pose_tells_what_was_reached(self):
         out = self.folder / "reached.json"

@@ -116,9 +116,10 @@ export class Character {
     for (const chain of this.chains) {
       const target = this.targets.get(chain.number) ?? (chain === this.lookChain ? pointer : undefined);
       if (!target) continue;
-      const { status, distance } = this.#pose.reach(chain.number, target.toArray(), { obeyConstraints: this.obeysConstraints });
+      const { status, distance, angle } = this.#pose.reach(chain.number, target.toArray(), { obeyConstraints: this.obeysConstraints });
       const words = { reached: 'reached', aimed: 'aimed', out_of_reach: 'too far', not_reached: 'as near as it can' }[status];
-      this.results.set(chain.number, status === 'reached' || status === 'aimed' ? words : `${words}, ${(1000 * distance).toFixed(0)} mm`);
+      const left = chain.solver === 'aim' ? `${((180 / Math.PI) * angle).toFixed(1)}°` : `${(1000 * distance).toFixed(0)} mm`;
+      this.results.set(chain.number, status === 'reached' || status === 'aimed' ? words : `${words}, ${left}`);
     }
     this.#animator.apply();
     this.#matrices = this.#pose.modelMatrices().slice();

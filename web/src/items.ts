@@ -93,7 +93,9 @@ export class Items<T extends Item> extends Array<T> {
       if (found !== undefined) return found;
       const names = this.names.slice(0, 20).map((name) => JSON.stringify(name));
       if (this.length > names.length) names.push(`${this.length - names.length} more`);
-      throw new BendyError('not_found', `there is no ${this.#kind} ${JSON.stringify(key)}; there are: ${names.join(', ') || 'none'}`);
+      const meant = name !== undefined && this.find((item) => item.name.toLowerCase() === name.toLowerCase());
+      const hint = meant ? `; did you mean ${JSON.stringify(meant.name)}? There` : '; there';
+      throw new BendyError('not_found', `there is no ${this.#kind} ${JSON.stringify(key)}${hint} are: ${names.join(', ') || 'none'}`);
     }
     if (typeof key === 'number') return checkIndex(key, this.length, this.#kind);
     return indexOwn(this, key, this.#kind);

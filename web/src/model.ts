@@ -1,3 +1,4 @@
+import { asBytes } from './bytes.js';
 import { Clip } from './clip.js';
 import { BendyError } from './errors.js';
 import { openOptionsLayout } from './generated/bindings.js';
@@ -79,7 +80,8 @@ export class Model extends Handle {
 
   /**
    * Opens a bendy file, loading the module if `init` has not. The bytes are copied into the module's memory. Rejects with a
-   * BendyError: MALFORMED, INVALID or UNSUPPORTED kinds with code, path and offset; OUT_OF_MEMORY.
+   * BendyError: MALFORMED, INVALID or UNSUPPORTED kinds with code, path and offset; OUT_OF_MEMORY; BAD_ARGUMENT for what is no bytes,
+   * such as an address.
    */
   static async open(bytes: ArrayBuffer | Uint8Array, options: OpenOptions = {}): Promise<Model> {
     return Model.openSync(bytes, { ...options, runtime: options.runtime ?? (await init()) });
@@ -89,12 +91,13 @@ export class Model extends Handle {
   static openSync(bytes: ArrayBuffer | Uint8Array, options: OpenOptions = {}): Model {
     const runtime = options.runtime ?? loadedRuntime();
     const { functions, error } = runtime;
-    const file = new FileBytes(runtime, bytes instanceof Uint8Array ? bytes : new Uint8Array(bytes));
+    const content = asBytes(bytes);
+    const file = new FileBytes(runtime, content);
     try {
       const at = runtime.struct(openOptionsLayout);
       runtime.view.setUint32(at + openOptionsLayout.object, checkIndex(options.object ?? 0, none, 'object'), true);
       runtime.view.setUint32(at + openOptionsLayout.sumsLater, options.checkSums === false ? 1 : 0, true);
-      return new Model(runtime, runtime.checkHandle(functions.bendy_open_borrowed(file.at, bytes.byteLength, at, error)), file);
+      return new Model(runtime, runtime.checkHandle(functions.bendy_open_borrowed(file.at, content.byteLength, at, error)), file);
     } catch (failure) {
       file.release();
       throw failure;

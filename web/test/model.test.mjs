@@ -76,6 +76,20 @@ test('texts refer to names and numbers as everywhere', () => {
   }
 });
 
+test('what is no bytes is named', async () => {
+  for (const [source, words] of [
+    ['fox.bendy', /found the address "fox\.bendy": fetch it first/],
+    [new URL('https://example.org/fox.glb'), /found the address "https:\/\/example\.org\/fox\.glb"/],
+    [new Blob([]), /found an object of type Blob, .* arrayBuffer\(\)/],
+    [undefined, /found undefined/],
+    [7, /found 7/],
+  ]) {
+    await assert.rejects(Model.open(source, { runtime: simd }), { name: 'BendyError', code: 'BAD_ARGUMENT', message: words });
+  }
+  const bytes = read(example('tentacle'));
+  assert.ok(Model.openSync(new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength), { runtime: simd }).joints.length > 0);
+});
+
 test('skinning by palette, bones and weights gives the vertices that skin computes', () => {
   const model = Model.openSync(read(example('mannequin')), { runtime: plain });
   const pose = model.sample('Walk', 0.3);
@@ -137,5 +151,6 @@ test('lists find by name, number and item', () => {
   assert.ok(clips.has('Walk') && !clips.has('Run'));
   assert.ok(clips.map((clip) => clip.name) instanceof Array);
   for (const key of [2, -1, 0.5, Number.NaN]) assert.throws(() => clips.get(key), { code: 'BAD_ARGUMENT' });
-  assert.throws(() => clips.get('Run'), { code: 'NOT_FOUND' });
+  assert.throws(() => clips.get('Run'), { code: 'NOT_FOUND', message: 'there is no clip "Run"; there are: "Idle", "Walk"' });
+  assert.throws(() => clips.get('walk'), { message: 'there is no clip "walk"; did you mean "Walk"? There are: "Idle", "Walk"' });
 });

@@ -72,9 +72,9 @@ struct Occurrence {
     std::uint64_t count = 0;
 };
 
-/// Finds the `extensions` objects of a file. Materials are left to material.cpp, the root and nodes to
-/// keep_extensions.cpp, cameras are kept whole, extras are the author's own, and what stands inside an extension goes
-/// with it.
+/// Finds the `extensions` objects of a file: those that are lost, and those that are kept as JSON, which other code
+/// reports. Kept are those of materials, of the root and nodes, of cameras, and what stands inside of these; extras are
+/// the author's own.
 class Finder {
 public:
     // NOLINTNEXTLINE(misc-no-recursion): the nesting of parsed JSON is bounded
@@ -88,8 +88,9 @@ public:
             for (auto member = node.begin(); member != node.end(); ++member) {
                 if (member.key() == "extensions") {
                     count(member.value(), place);
-                } else if (member.value().is_structured() && member.key() != "extras" &&
-                           !(place.empty() && (member.key() == "materials" || member.key() == "cameras"))) {
+                } else if (place.empty() && (member.key() == "materials" || member.key() == "cameras")) {
+                    note_kept(member.value());
+                } else if (member.value().is_structured() && member.key() != "extras") {
                     search(member.value(), place.empty() ? key(member.key()) : place + '.' + key(member.key()));
                 }
             }
@@ -102,16 +103,33 @@ public:
 private:
     void count(const Json& extensions, const std::string& place) {
         if (!extensions.is_object()) return;
-        if (place.empty() || is_node(place)) {
-            for (auto extension = extensions.begin(); extension != extensions.end(); ++extension)
-                kept.insert(extension.key());
-            return;
-        }
+        if (place.empty() || is_node(place)) return note_kept_extensions(extensions);
         for (auto extension = extensions.begin(); extension != extensions.end(); ++extension) {
             Occurrence& occurrence = found[extension.key()];
             if (occurrence.count++ == 0) {
                 occurrence.first_place = place + ".extensions." + key(extension.key());
             }
+        }
+    }
+
+    // NOLINTNEXTLINE(misc-no-recursion): the nesting of parsed JSON is bounded
+    void note_kept(const Json& node) {
+        if (node.is_array()) {
+            for (const Json& element : node) note_kept(element);
+        } else if (node.is_object()) {
+            for (auto member = node.begin(); member != node.end(); ++member) {
+                if (member.key() == "extensions") note_kept_extensions(member.value());
+                if (member.key() != "extensions" && member.key() != "extras") note_kept(member.value());
+            }
+        }
+    }
+
+    // NOLINTNEXTLINE(misc-no-recursion): the nesting of parsed JSON is bounded
+    void note_kept_extensions(const Json& extensions) {
+        if (!extensions.is_object()) return;
+        for (auto extension = extensions.begin(); extension != extensions.end(); ++extension) {
+            kept.insert(extension.key());
+            note_kept(extension.value());
         }
     }
 
@@ -145,8 +163,8 @@ void report_extensions(const Json& root, Report& report) {
     for (const auto& [name, occurrence] : finder.found) {
         const Known* known = find_known(name);
         if (known != nullptr && known->use != Use::ignored) continue;
-        report.warn("extension not read: " + quote(name), occurrence.first_place,
-                    std::max<std::uint64_t>(1, occurrence.count));
+        report.warn((occurrence.count == 0 ? "extension not read: " : "extension left out: ") + quote(name),
+                    occurrence.first_place, std::max<std::uint64_t>(1, occurrence.count));
     }
 }
 

@@ -58,7 +58,8 @@ private:
 
 std::uint32_t find_joint(const RigChain& chain, const char* role, const std::string& key, const JointIndex& index) {
     const std::uint32_t joint = index.find_key(key);
-    if (joint == kNone) fail(chain.place + '.' + role, "there is no joint " + quote(key));
+    if (joint == kNone)
+        fail(chain.place + '.' + role, "there is no joint " + quote(key) + index.suggest(name_of_key(key)));
     return joint;
 }
 
@@ -86,14 +87,18 @@ std::vector<Chain::Weight> resolve_weights(const RigChain& source, const ChainRe
 }
 
 /// Names what no joint took: the first few one by one.
-void report_untaken(const Rig& rig, const std::vector<bool>& is_taken, Report& report) {
+void report_untaken(const Rig& rig, const std::vector<bool>& is_taken, const JointIndex& index, Report& report) {
     constexpr std::size_t kNamed = 20;
     std::size_t count = 0;
     for (std::size_t i = 0; i < is_taken.size(); ++i) {
         if (is_taken[i]) continue;
         const std::string place = rig.source + rig.joints[i].place;
         if (count++ < kNamed) {
-            report.warn("no joint takes " + quote(rig.joints[i].key.name), place);
+            const JointKey& key = rig.joints[i].key;
+            const bool is_first = count == 1;  // a hostile file has many, and a search takes time
+            report.warn("no joint takes " + quote(key.name) +
+                            (is_first && key.kind == JointKey::Kind::name ? index.suggest(key.name) : ""),
+                        place);
         } else {
             report.warn("no joint takes this entry either", place);
         }
@@ -155,7 +160,7 @@ void attach_rig(Scene& scene, const Rig& rig, const JointIndex& index, Claims& c
         claims.chains.insert(chain.name);
         scene.chains.push_back(std::move(chain));
     }
-    report_untaken(rig, is_taken, report);
+    report_untaken(rig, is_taken, index, report);
 }
 
 }  // namespace bendy::converter

@@ -8,6 +8,8 @@
 #include "joint_key.h"
 #include "parse_rig.h"
 
+#include <bendy/format/names.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +19,7 @@
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace bendy::converter {
 namespace {
@@ -332,13 +335,18 @@ void attach_markers(Scene& scene, const Rig& rig, Report& report) {
     std::unordered_map<std::string_view, std::size_t> by_name;  // the first of a name
     for (std::size_t i = 0; i < scene.clips.size(); ++i) by_name.try_emplace(scene.clips[i].name, i);
     std::vector<bool> is_taken(scene.clips.size());
+    bool has_suggested = false;
     for (const RigClip& entry : *rig.clips) {
         std::uint64_t number = 0;
         const bool is_number = parse_joint_number(entry.key, number);
         const auto named = by_name.find(name_of_key(entry.key));
         if (!is_number && named != by_name.end()) number = named->second;
         if (is_number ? number >= scene.clips.size() : named == by_name.end()) {
-            report.warn("no clip takes " + quote(entry.key), rig.source + entry.place);
+            std::vector<std::string_view> names;  // to suggest one, once: a hostile file has many entries
+            for (std::size_t i = 0; !has_suggested && i < scene.clips.size(); ++i) names.push_back(scene.clips[i].name);
+            has_suggested = true;
+            report.warn("no clip takes " + quote(entry.key) + did_you_mean(names, name_of_key(entry.key)),
+                        rig.source + entry.place);
             continue;
         }
         if (is_taken[number]) fail(entry.place, "clip " + quote(entry.key) + " has an earlier entry");

@@ -1,10 +1,12 @@
 #include "joint_key.h"
 
+#include <bendy/format/names.h>
 #include <utf8cpp/utf8.h>
 
 #include <algorithm>
 #include <charconv>
 #include <system_error>
+#include <utility>
 
 namespace bendy::converter {
 namespace {
@@ -184,6 +186,15 @@ std::uint32_t JointIndex::find_key(std::string_view key) const {
     std::uint64_t number = 0;
     if (!parse_joint_number(key, number)) return find(name_of_key(key));
     return number < size() ? static_cast<std::uint32_t>(number) : kNone;
+}
+
+std::string JointIndex::suggest(std::string_view key) const {
+    std::vector<std::pair<std::uint32_t, std::string_view>> firsts;
+    for (const auto& [name, joints] : by_name_) firsts.emplace_back(joints.front(), name);
+    std::sort(firsts.begin(), firsts.end());
+    std::vector<std::string_view> names;
+    for (const auto& [joint, name] : firsts) names.push_back(name);
+    return did_you_mean(names, key);
 }
 
 }  // namespace bendy::converter

@@ -77,6 +77,8 @@ public:
     [[nodiscard]] std::uint32_t find(std::string_view name, std::uint32_t top = kNone) const;
     /// The joint that `#12`, `=Hips` or a name means; kNone if there is none.
     [[nodiscard]] std::uint32_t find_key(std::string_view key) const;
+    /// `; did you mean "Hips"?` if some name is similar to a key that means no joint; otherwise nothing.
+    [[nodiscard]] std::string suggest(std::string_view key) const;
     /// In pre-order a joint's descendants are [joint, end).
     [[nodiscard]] std::uint32_t end(std::uint32_t joint) const { return ends_[joint]; }
     [[nodiscard]] bool is_above(std::uint32_t joint, std::uint32_t other) const {

@@ -232,6 +232,11 @@ bool has_readable_suffix(const std::filesystem::path& file) {
     return importer != nullptr && importer->format != SourceFormat::bendy;
 }
 
+bool is_converted(Bytes bytes, const std::filesystem::path& name) {
+    const auto kind = find_file_kind(bytes, name);
+    return kind ? kind->format != SourceFormat::bendy : has_readable_suffix(name);
+}
+
 std::string why_not_a_file(const std::filesystem::path& file) {
     std::error_code ignored;
     const std::filesystem::file_status status = std::filesystem::status(file, ignored);

@@ -22,8 +22,21 @@ TEST(GltfKeptExtensions, ElsewhereTheyAreSaidToBeLost) {
     gltf.json["meshes"][0]["extensions"]["ACME"] = 1;
     gltf.json["nodes"][0]["extensions"]["ACME"] = 1;
     const Import import = gltf.import();
-    EXPECT_EQ(import.warned("extension not read: 'ACME'"), 1u);
+    EXPECT_EQ(import.warned("extension left out: 'ACME'"), 1u);
     EXPECT_EQ(import.warned("kept as JSON"), 1u);
+}
+
+TEST(GltfKeptExtensions, OneThatIsKeptIsNotSaidToBeLost) {
+    Gltf gltf = make_triangle();
+    gltf.json["extensionsUsed"] = {"ACME_paint", "ACME_layer", "ACME_lens", "ACME_nowhere"};
+    gltf.json["materials"] = {{{"extensions", {{"ACME_paint", {{"extensions", {{"ACME_layer", {{"x", 1}}}}}}}}}}};
+    gltf.json["cameras"] = {{{"type", "perspective"},
+                             {"perspective", {{"yfov", 1.0}, {"znear", 0.1}, {"extensions", {{"ACME_lens", 1}}}}}}};
+    const Import import = gltf.import();
+    EXPECT_EQ(import.warned("kept as JSON, not interpreted: ACME_paint"), 1u);
+    EXPECT_EQ(import.warned("extension not read: 'ACME_nowhere'"), 1u);
+    EXPECT_EQ(import.warned("extension not read"), 1u);
+    EXPECT_EQ(import.warned("extension left out"), 0u);
 }
 
 TEST(GltfKeptExtensions, KnownNodeNumbersBecomeJointNumbers) {

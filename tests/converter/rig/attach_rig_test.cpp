@@ -107,6 +107,8 @@ TEST(AttachRig, ChainsThatCannotBeAreRefused) {
         return text;
     };
     EXPECT_EQ(error(R"("start": "nobody", "effector": "left")"), "chains[0].start: there is no joint 'nobody'");
+    EXPECT_EQ(error(R"("start": "Root", "effector": "left")"),
+              "chains[0].start: there is no joint 'Root'; did you mean \"root\"?");
     EXPECT_EQ(error(R"("start": "root", "effector": "#3")"), "chains[0].effector: there is no joint '#3'");
     EXPECT_EQ(error(R"("start": "root", "effector": "left", "pole": "l*")"), "chains[0].pole: there is no joint 'l*'");
     EXPECT_EQ(error(R"("start": "left", "effector": "right")"),

@@ -7,6 +7,7 @@
  *
  * @packageDocumentation
  */
+import { asBytes } from '../bytes.js';
 import { type Inputs, runTool } from './module.js';
 import type {
   Chunk,
@@ -31,12 +32,9 @@ import type {
 export { BendyError, type ErrorKind } from '../errors.js';
 export type * from './types.js';
 
-function bytesOf(bytes: FileBytes): Uint8Array {
-  return bytes instanceof Uint8Array ? bytes : new Uint8Array(bytes);
-}
-
-function isBytes(source: Source): source is FileBytes {
-  return source instanceof Uint8Array || source instanceof ArrayBuffer;
+/** Whether it is one file; otherwise files by their names. */
+function isOneFile(source: Source): source is FileBytes {
+  return Object.prototype.toString.call(source) !== '[object Object]';
 }
 
 /** The one file that a tool made. */
@@ -46,7 +44,7 @@ async function made(request: object, inputs: Inputs): Promise<Uint8Array<ArrayBu
 
 /** Runs a tool on the file "a.bendy". */
 async function answered<T>(request: object, bytes: FileBytes): Promise<T> {
-  return (await runTool<T>({ ...request, file: 'a.bendy' }, { 'a.bendy': bytesOf(bytes) })).answer;
+  return (await runTool<T>({ ...request, file: 'a.bendy' }, { 'a.bendy': asBytes(bytes) })).answer;
 }
 
 async function edited(request: object, inputs: Inputs): Promise<Edited> {
@@ -64,10 +62,10 @@ export async function convert(source: Source, options: ConvertOptions = {}): Pro
   const { main, rig, compact, progress, scene, ...others } = options;
   const inputs: Inputs = {};
   let file = main ?? 'source';
-  if (isBytes(source)) {
-    inputs[file] = bytesOf(source);
+  if (isOneFile(source)) {
+    inputs[file] = asBytes(source);
   } else {
-    for (const [name, bytes] of Object.entries(source)) inputs[name] = bytesOf(bytes);
+    for (const [name, bytes] of Object.entries(source)) inputs[name] = asBytes(bytes);
     file = main ?? Object.keys(source)[0] ?? '';
   }
   const request: Record<string, unknown> = { do: 'convert', file, ...others };
@@ -129,12 +127,12 @@ export async function summary(bytes: FileBytes): Promise<Summary> {
  * @param name - of the file, for the page's title
  */
 export async function inspectPage(bytes: FileBytes, name: string): Promise<string> {
-  return new TextDecoder().decode(await made({ do: 'page', file: 'a.bendy', name }, { 'a.bendy': bytesOf(bytes) }));
+  return new TextDecoder().decode(await made({ do: 'page', file: 'a.bendy', name }, { 'a.bendy': asBytes(bytes) }));
 }
 
 /** The text form of a file (spec/text.md): JSON that `assemble` turns back into the same bytes. */
 export async function dump(bytes: FileBytes, options: DumpOptions = {}): Promise<string> {
-  return new TextDecoder().decode(await made({ do: 'dump', file: 'a.bendy', ...options }, { 'a.bendy': bytesOf(bytes) }));
+  return new TextDecoder().decode(await made({ do: 'dump', file: 'a.bendy', ...options }, { 'a.bendy': asBytes(bytes) }));
 }
 
 /**
@@ -150,7 +148,7 @@ export function assemble(text: string, options: { allowInvalid?: boolean } = {})
  * keeps its bytes.
  */
 export function strip(bytes: FileBytes, part: string): Promise<Edited> {
-  return edited({ do: 'strip', part }, { 'a.bendy': bytesOf(bytes) });
+  return edited({ do: 'strip', part }, { 'a.bendy': asBytes(bytes) });
 }
 
 /**
@@ -164,7 +162,7 @@ export function rename(
   names: Readonly<Record<string, string>>,
   options: { allMustMatch?: boolean } = {},
 ): Promise<Edited> {
-  return edited({ do: 'rename', kind, names: Object.entries(names), ...options }, { 'a.bendy': bytesOf(bytes) });
+  return edited({ do: 'rename', kind, names: Object.entries(names), ...options }, { 'a.bendy': asBytes(bytes) });
 }
 
 /**
@@ -178,12 +176,12 @@ export function mergeClips(
   options: { sameName?: 'error' | 'replace' | 'number' } = {},
 ): Promise<Edited> {
   const request = { do: 'mergeClips', other: 'b.bendy', sameName: options.sameName ?? 'error' };
-  return edited(request, { 'a.bendy': bytesOf(bytes), 'b.bendy': bytesOf(other) });
+  return edited(request, { 'a.bendy': asBytes(bytes), 'b.bendy': asBytes(other) });
 }
 
 /** Keeps the joint with this name and all below it, with what belongs to them. */
 export function extract(bytes: FileBytes, joint: string): Promise<Edited> {
-  return edited({ do: 'extract', joint }, { 'a.bendy': bytesOf(bytes) });
+  return edited({ do: 'extract', joint }, { 'a.bendy': asBytes(bytes) });
 }
 
 /**
@@ -192,7 +190,7 @@ export function extract(bytes: FileBytes, joint: string): Promise<Edited> {
  */
 export async function exportModel(bytes: FileBytes, format: ExportFormat, options: ExportOptions = {}): Promise<Exported> {
   const request = { do: 'export', file: 'a.bendy', format, name: options.name ?? 'model', lod: options.lod ?? 1 };
-  const { answer, made } = await runTool<{ warnings: Warning[] }>(request, { 'a.bendy': bytesOf(bytes) });
+  const { answer, made } = await runTool<{ warnings: Warning[] }>(request, { 'a.bendy': asBytes(bytes) });
   const files = Object.fromEntries(made.map((file) => [file.name, file.bytes]));
   return { main: made[0]!.name, files, warnings: answer.warnings };
 }
@@ -205,7 +203,7 @@ export async function diff(a: FileBytes, b: FileBytes, options: DiffOptions & { 
 export async function diff(a: FileBytes, b: FileBytes, options?: { tolerance?: undefined }): Promise<FileDifferences>;
 export async function diff(a: FileBytes, b: FileBytes, options: DiffOptions = {}): Promise<FileDifferences | CharacterDifferences> {
   const request = { do: 'diff', file: 'a.bendy', other: 'b.bendy', tolerance: options.tolerance ?? '' };
-  const inputs = { 'a.bendy': bytesOf(a), 'b.bendy': bytesOf(b) };
+  const inputs = { 'a.bendy': asBytes(a), 'b.bendy': asBytes(b) };
   const { answer } = await runTool<(FileDifferences | CharacterDifferences) & { made?: unknown }>(request, inputs);
   delete answer.made;
   return answer;

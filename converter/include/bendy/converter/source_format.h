@@ -49,4 +49,8 @@ std::string list_readable_suffixes();
 /// True if the file's name ends in one of them, in capitals or not.
 bool has_readable_suffix(const std::filesystem::path& file);
 
+/// True if what takes characters of any kind converts the file, and false if it opens it as a bendy file. `convert`
+/// says what is wrong with files that it does not read. Of what is not known the name decides.
+bool is_converted(Bytes bytes, const std::filesystem::path& name);
+
 }  // namespace bendy::converter
