@@ -1,6 +1,8 @@
 #include "commands/commands.h"
+#include "commands/model_options.h"
 #include "diff/reports.h"
 #include "files/input.h"
+#include "files/output.h"
 #include "files/signals.h"
 #include "terminal/json.h"
 #include "terminal/messages.h"
@@ -38,6 +40,7 @@ constexpr int kTrouble = 2;  // as diff(1) has it, whatever other commands retur
 struct DiffArguments {
     std::array<std::filesystem::path, 2> files;
     std::optional<converter::ErrorBound> bound;  // of places; without one, chunks are compared
+    std::filesystem::path root;
     bool json = false;
 };
 
@@ -121,14 +124,15 @@ void print_lines(const ReadFile& a, const ReadFile& b, const Differences& differ
 }
 
 /// A damaged file is refused before anything is compared: its sums would say nothing.
-std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const InputBytes& file) {
+std::unique_ptr<ReadFile> open(const std::filesystem::path& path, const CharacterFile& file) {
     const Faults faults = validate(file.bytes());
     if (!faults.empty()) fail(path, faults.list().front(), file.bytes());
     return diff::read_file(file.bytes());
 }
 
-ComparedCharacter open_compared(const std::filesystem::path& path) {
-    const InputBytes file = open_bendy_file(path);
+ComparedCharacter open_compared(const std::filesystem::path& path, const std::filesystem::path& root) {
+    Outputs outputs;
+    const CharacterFile file = open_character(path, root, outputs);
     converter::Report report;
     auto character = read_compared(file.bytes(), report);
     if (!character) fail(path, printable(character.error().message));
@@ -181,10 +185,10 @@ void print_text(const CharacterComparison& comparison) {
 
 /// Compares what two bendy files mean and prints what differs by more than the tolerance, and the worst distance met.
 /// True if nothing does. Throws Failed where a file is bad, or the tolerance too large to tell anything apart.
-bool are_characters_alike(const std::array<std::filesystem::path, 2>& files, const converter::ErrorBound& tolerance,
-                          bool as_json) {
-    const ComparedCharacter a = open_compared(files[0]);
-    const ComparedCharacter b = open_compared(files[1]);
+bool are_characters_alike(const DiffArguments& arguments, const converter::ErrorBound& tolerance) {
+    const auto& files = arguments.files;
+    const ComparedCharacter a = open_compared(files[0], arguments.root);
+    const ComparedCharacter b = open_compared(files[1], arguments.root);
     CharacterComparison comparison;
     {
         ProgressBar bar("comparing");
@@ -198,7 +202,7 @@ bool are_characters_alike(const std::array<std::filesystem::path, 2>& files, con
         fail(files[0], "too many polygons lie within " + length_text(comparison.tolerance) +
                            " of one another; a smaller tolerance can tell them apart");
     }
-    if (as_json) {
+    if (arguments.json) {
         print_report(comparison_as_json(files[0].string(), files[1].string(), comparison), 2);
     } else {
         print_text(comparison);
@@ -207,13 +211,14 @@ bool are_characters_alike(const std::array<std::filesystem::path, 2>& files, con
 }
 
 bool are_same(const DiffArguments& arguments) {
-    if (arguments.bound) return are_characters_alike(arguments.files, *arguments.bound, arguments.json);
-    std::array<InputBytes, 2> files;
+    if (arguments.bound) return are_characters_alike(arguments, *arguments.bound);
+    Outputs outputs;
+    const auto open_one = [&](const std::filesystem::path& path) {
+        return open_character(path, arguments.root, outputs);
+    };
+    const std::array files{open_one(arguments.files[0]), open_one(arguments.files[1])};
     std::array<std::unique_ptr<ReadFile>, 2> read;
-    for (std::size_t i = 0; i < 2; ++i) {
-        files[i] = open_bendy_file(arguments.files[i]);
-        read[i] = open(arguments.files[i], files[i]);
-    }
+    for (std::size_t i = 0; i < 2; ++i) read[i] = open(arguments.files[i], files[i]);
     const Differences differences = diff::compare_files(*read[0], *read[1]);
     if (arguments.json) {
         print_report(differences_as_json(arguments.files[0].string(), arguments.files[1].string(), *read[0], *read[1],
@@ -251,9 +256,13 @@ void add_diff(CLI::App& program) {
     const auto arguments = std::make_shared<DiffArguments>();
     const auto tolerance = std::make_shared<std::string>();
     CLI::App* command = program.add_subcommand(
-        "diff", "Show the differences between two bendy files, chunk by chunk, or between the characters in them");
-    command->add_option("A", arguments->files[0], "a bendy file")->required();
+        "diff", "Show the differences between two files, chunk by chunk, or between the characters in them");
+    command
+        ->add_option("A", arguments->files[0],
+                     "a bendy file, or one that `bendy convert` reads, which is converted on the fly")
+        ->required();
     command->add_option("B", arguments->files[1], "another")->required();
+    add_root(*command, arguments->root);
     CLI::Option* given =
         command->add_option("--tolerance", *tolerance,
                             "compare the characters instead of the chunks, for example an exact file with its compact "

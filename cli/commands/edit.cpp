@@ -1,4 +1,5 @@
 #include "commands/commands.h"
+#include "commands/model_options.h"
 #include "files/input.h"
 #include "files/output.h"
 #include "terminal/messages.h"
@@ -165,13 +166,19 @@ void print_change(const EditArguments& arguments, std::uint64_t before, std::uin
     out << '\n';
 }
 
+/// A file of another kind, converted; --in-place replaces only bendy files.
+CharacterFile open_edited(const EditArguments& arguments, Outputs& outputs) {
+    if (arguments.in_place) return CharacterFile(open_bendy_file(arguments.input));
+    return open_character(arguments.input, arguments.root, outputs);
+}
+
 /// \param outputs  knows what is read besides the file itself
 void run(const EditArguments& arguments, const std::vector<Step>& steps, Outputs& outputs) {
     if (!arguments.in_place) outputs.reads(arguments.input);
     outputs.writes(arguments.output, NamedBy::user, Content::binary);
     check_suffix({"edit", "--output", {".bendy"}}, arguments.input, arguments.output);
     require_folder_of(arguments.output);
-    InputBytes file = open_bendy_file(arguments.input);
+    CharacterFile file = open_edited(arguments, outputs);
     const std::uint64_t size_before = file.bytes().size();
     Buffer bytes;
     edit::Log log;
@@ -180,7 +187,7 @@ void run(const EditArguments& arguments, const std::vector<Step>& steps, Outputs
         if (!edited) fail(arguments.input, printable(edited.error().message));
         bytes = *std::move(edited);
     }
-    file = InputBytes();  // the output may be the input, and Windows replaces no mapped file
+    file = CharacterFile(InputBytes());  // the output may be the input, and Windows replaces no mapped file
     outputs.write(arguments.output, bytes);
     for (const std::string& warning : log.warnings) warn(arguments.input, printable(warning));
     if (arguments.quiet) return;
@@ -193,9 +200,10 @@ void run(const EditArguments& arguments, const std::vector<Step>& steps, Outputs
 void add_edit(CLI::App& program) {
     const auto arguments = std::make_shared<EditArguments>();
     CLI::App* command = program.add_subcommand("edit", "Change a bendy file without converting it again");
-    command->add_option("FILE", arguments->input, "a bendy file")->required();
+    add_character(*command, arguments->input)->required();
     command->add_option("-o,--output", arguments->output, "where to write; never FILE itself");
-    command->add_flag("-i,--in-place", arguments->in_place, "replace FILE with the result; use instead of --output");
+    command->add_flag("-i,--in-place", arguments->in_place,
+                      "replace FILE, a bendy file, with the result; use instead of --output");
     const auto add = [&](const char* name, auto& values, const std::string& help) {
         command->add_option(name, values, help)->allow_extra_args(false);
     };

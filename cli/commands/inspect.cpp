@@ -183,7 +183,7 @@ void run_html(const InspectArguments& arguments) {
     outputs.reads(arguments.file);
     outputs.writes(arguments.html, NamedBy::user, Content::text);
     check_suffix({"inspect", "--html", {".html", ".htm", ".xhtml"}}, arguments.file, arguments.html);
-    const InputBytes input = open_bendy_file(arguments.file);
+    const CharacterFile input = open_character(arguments.file, arguments.root, outputs);
     InspectedFile file;
     file.name = short_name(arguments.file);
     file.bytes = input.bytes();
@@ -210,7 +210,8 @@ void run(const InspectArguments& arguments) {
         run_html(arguments);
         return;
     }
-    const InputBytes file = open_bendy_file(arguments.file);
+    Outputs outputs;
+    const CharacterFile file = open_character(arguments.file, arguments.root, outputs);
     ChunkTree tree = read_tree(arguments.file, file.bytes());
     decode_leaves(tree);
     const std::uint32_t root = arguments.chunk.empty() ? 0 : find_path(tree, arguments.chunk);
@@ -245,7 +246,7 @@ void add_inspect(CLI::App& program) {
     const auto arguments = std::make_shared<InspectArguments>();
     CLI::App* command = program.add_subcommand(
         "inspect", "Show what is in a file: a summary, then the chunk tree with ids, offsets, sizes");
-    command->add_option("FILE", arguments->file, "a bendy file")->required();
+    add_character(*command, arguments->file)->required();
     CLI::Option* chunk =
         command->add_option("--chunk", arguments->chunk, "only this chunk and its contents: a path, or @OFFSET");
     CLI::Option* json = command->add_flag("--json", arguments->json,

@@ -1,4 +1,5 @@
 #include "commands/commands.h"
+#include "commands/model_options.h"
 #include "files/input.h"
 #include "terminal/json.h"
 #include "terminal/messages.h"
@@ -20,6 +21,7 @@ namespace {
 
 struct ValidateArguments {
     std::vector<std::filesystem::path> files;
+    std::filesystem::path root;
     bool json = false;
 };
 
@@ -63,8 +65,33 @@ std::string text_of(const DanglingLink& link) {
     return "linked image does not exist: " + link.uri;
 }
 
-nlohmann::json to_json(const std::filesystem::path& file, const Faults& faults, const Links& links, Bytes bytes,
-                       const std::string& why) {
+/// What is said of one file.
+struct Verdict {
+    bool is_valid = false;
+    nlohmann::json json;
+};
+
+Verdict validate_bendy(const std::filesystem::path& file, const Result<InputBytes>& mapped, bool is_json) {
+    Faults faults;
+    Bytes bytes;
+    Links links;
+    if (mapped) {
+        bytes = mapped->bytes();
+        faults = validate(bytes);
+        if (faults.empty()) links = find_dangling_links(file, bytes);
+    } else {
+        faults.add(mapped.error());
+    }
+    const std::string why = why_no_file(file, mapped);
+    Verdict verdict{faults.empty(), {{"file", file.string()}, {"valid", faults.empty()}}};
+    if (!is_json && !why.empty()) {
+        std::cerr << error_label() << shown_name(file) << ": " << printable(why) << '\n';
+    } else if (!is_json) {
+        print_fault_lines(std::cout, file, faults, bytes);
+        for (const DanglingLink& link : links)
+            warn(file, printable(chunk_path(bytes, link.offset) + ": " + text_of(link)));
+    }
+    if (!is_json) return verdict;
     nlohmann::json list = nlohmann::json::array();
     for (const Error& fault : faults.list()) {
         list.push_back({{"code", code_name(fault.code)},
@@ -78,41 +105,53 @@ nlohmann::json to_json(const std::filesystem::path& file, const Faults& faults, 
         warnings.push_back(
             {{"path", whole_chunk_path(bytes, link.offset)}, {"offset", link.offset}, {"message", text_of(link)}});
     }
-    return {{"file", file.string()},
-            {"valid", faults.empty()},
-            {"faults", list},
-            {"faultsLeftOut", faults.left_out()},
-            {"warnings", warnings}};
+    verdict.json["faults"] = std::move(list);
+    verdict.json["faultsLeftOut"] = faults.left_out();
+    verdict.json["warnings"] = std::move(warnings);
+    return verdict;
+}
+
+/// Of a file that `convert` reads: what its importer finds, with the place in the source.
+Verdict validate_source(const std::filesystem::path& file, InputBytes mapped, const std::filesystem::path& root,
+                        bool is_json) {
+    converter::Report report;
+    const auto character = read_character(file, std::move(mapped), root, report);
+    const bool is_valid = character.has_value();
+    Verdict verdict{is_valid, {{"file", file.string()}, {"valid", is_valid}}};
+    if (!is_json) {
+        print_warnings(file, report);
+        if (!is_valid)
+            std::cout << shown_name(file_of(character.error(), file)) << ": " << describe(character.error()) << '\n';
+        return verdict;
+    }
+    nlohmann::json faults = nlohmann::json::array();
+    if (!is_valid) {
+        const converter::ImportError& error = character.error();
+        faults.push_back({{"code", "CONVERSION"}, {"path", error.place}, {"message", error.message}});
+        if (!error.file.empty()) faults.back()["file"] = error.file.string();
+    }
+    nlohmann::json warnings = nlohmann::json::array();
+    for (const converter::Warning& warning : report.warnings())
+        warnings.push_back({{"path", warning.first_place}, {"message", warning.message}, {"count", warning.count}});
+    verdict.json["faults"] = std::move(faults);
+    verdict.json["faultsLeftOut"] = 0;
+    verdict.json["warnings"] = std::move(warnings);
+    return verdict;
 }
 
 void run(const ValidateArguments& arguments) {
     bool all_good = true;
-    nlohmann::json report = nlohmann::json::array();
+    nlohmann::json reports = nlohmann::json::array();
     for (const std::filesystem::path& file : arguments.files) {
-        const Result<InputBytes> mapped = InputBytes::open(file);
-        Faults faults;
-        Bytes bytes;
-        Links links;
-        if (mapped) {
-            bytes = mapped->bytes();
-            faults = validate(bytes);
-            if (faults.empty()) links = find_dangling_links(file, bytes);
-        } else {
-            faults.add(mapped.error());
-        }
-        all_good = all_good && faults.empty();
-        const std::string why = why_no_file(file, mapped);
-        if (arguments.json) {
-            report.push_back(to_json(file, faults, links, bytes, why));
-        } else if (!why.empty()) {
-            std::cerr << error_label() << shown_name(file) << ": " << printable(why) << '\n';
-        } else {
-            print_fault_lines(std::cout, file, faults, bytes);
-            for (const DanglingLink& link : links)
-                warn(file, printable(chunk_path(bytes, link.offset) + ": " + text_of(link)));
-        }
+        Result<InputBytes> mapped = InputBytes::open(file);
+        const bool is_source = mapped && converter::is_converted(mapped->bytes(), file) &&
+                               converter::why_not_convertible(mapped->bytes(), file).empty();
+        const Verdict verdict = is_source ? validate_source(file, std::move(*mapped), arguments.root, arguments.json)
+                                          : validate_bendy(file, mapped, arguments.json);
+        all_good = all_good && verdict.is_valid;
+        if (arguments.json) reports.push_back(verdict.json);
     }
-    if (arguments.json) print_report(report, 2);
+    if (arguments.json) print_report(reports, 2);
     if (!all_good) throw Failed{};
 }
 
@@ -121,12 +160,15 @@ void run(const ValidateArguments& arguments) {
 void add_validate(CLI::App& program) {
     const auto arguments = std::make_shared<ValidateArguments>();
     CLI::App* command = program.add_subcommand("validate", "Report every error in files, with its place");
-    command->add_option("FILE", arguments->files, "bendy files")->required();
+    command->add_option("FILE", arguments->files, "bendy files, or files that `bendy convert` reads")->required();
+    add_root(*command, arguments->root);
     command->add_flag("--json", arguments->json, "print a JSON report");
     command->footer(
         "Prints nothing and exits with 0 if the files are valid; otherwise prints one line per error and exits with 1. "
         "A link to an image that does not exist is only a warning, on standard error or in the report's "
-        "\"warnings\".\nExample: bendy validate fox.bendy");
+        "\"warnings\". Of a file that `bendy convert` reads, it prints what the conversion finds, with the place in "
+        "the "
+        "source: an error as such a line, warnings as warnings.\nExample: bendy validate fox.bendy");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -123,12 +123,14 @@ Result<CharacterFile, converter::ImportError> read_character(const std::filesyst
                                                              converter::Report& report, Storage storage) {
     Result<InputBytes> mapped = InputBytes::open(file, storage);
     if (!mapped) return converter::ImportError{{}, why_not_opened(file, mapped.error())};
-    const auto kind = converter::find_file_kind(mapped->bytes(), file);
-    const bool is_bendy = kind && kind->format == converter::SourceFormat::bendy;
-    // Of what is not known the name decides who says what is wrong with it.
-    if (is_bendy || (!kind && !is_dash(file) && !converter::has_readable_suffix(file)))
-        return CharacterFile(*std::move(mapped));
-    auto converted = converted_input(file, root, *std::move(mapped), report);
+    return read_character(file, *std::move(mapped), root, report);
+}
+
+Result<CharacterFile, converter::ImportError> read_character(const std::filesystem::path& file, InputBytes mapped,
+                                                             const std::filesystem::path& root,
+                                                             converter::Report& report) {
+    if (!converter::is_converted(mapped.bytes(), file)) return CharacterFile(std::move(mapped));
+    auto converted = converted_input(file, root, std::move(mapped), report);
     if (!converted) return converted.error();
     return CharacterFile(*std::move(converted));
 }

@@ -82,7 +82,11 @@ Result<CharacterFile, converter::ImportError> read_character(const std::filesyst
                                                              const std::filesystem::path& root,
                                                              converter::Report& report,
                                                              Storage storage = Storage::mapped);
-/// The same; prints what the conversion has to say, as `convert` does, and fails if something is wrong.
+/// The same of a file that is open already.
+Result<CharacterFile, converter::ImportError> read_character(const std::filesystem::path& file, InputBytes mapped,
+                                                             const std::filesystem::path& root,
+                                                             converter::Report& report);
+/// The same of a name; prints what the conversion has to say, as `convert` does, and fails if something is wrong.
 /// \param outputs  learns what was read
 CharacterFile open_character(const std::filesystem::path& file, const std::filesystem::path& root, Outputs& outputs,
                              Storage storage = Storage::mapped);

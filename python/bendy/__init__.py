@@ -149,11 +149,13 @@ class Fault:
 
 
 class Faults(list):
-    """The faults of a file: an empty list if it is valid. `left_out`: how many more there are than the first thousand."""
+    """The faults of a file: an empty list if it is valid. `left_out`: how many more there are than the first thousand. `warnings`: of
+    a file that was converted, as in Conversion."""
 
-    def __init__(self, faults=(), left_out=0):
+    def __init__(self, faults=(), left_out=0, warnings=()):
         super().__init__(faults)
         self.left_out = left_out
+        self.warnings = [*warnings]
 
 
 class Conversion(File):
@@ -382,14 +384,23 @@ def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, s
 
 
 def validate(source):
-    """Every fault of a bendy file: Faults, an empty list if it is valid. Raises MalformedError for a file of another kind, OSError."""
-    faults, left_out = _bendy.validate(_source(source))
+    """Every fault of a bendy file: Faults, an empty list if it is valid. Of a file that convert reads, the error that it finds, with
+    its place in the source as `path`. Raises MalformedError for a file of another kind, OSError."""
+    found = _source(source)
+    if found.is_converted:
+        try:
+            return Faults(warnings=convert(source).warnings)
+        except ConversionError as error:
+            if error.path:
+                return Faults([Fault(error.code, "invalid", error.message, error.path, 0)])
+    faults, left_out = _bendy.validate(found)
     return Faults((Fault(**fault) for fault in faults), left_out)
 
 
 def inspect(source):
-    """The root Chunk of a bendy file, whatever its chunks hold. Raises MalformedError if the grammar is broken, OSError."""
-    tree = _bendy.Tree(_source(source))
+    """The root Chunk of a bendy file, whatever its chunks hold, or of what bendy.open accepts. Raises MalformedError if the grammar
+    is broken, ConversionError, OSError."""
+    tree = _bendy.Tree(_bendy_source(source))
     chunks, children = [], []
     for entry in tree.chunks():
         parent = None if entry["parent"] is None else chunks[entry["parent"]]

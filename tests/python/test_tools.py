@@ -3,6 +3,7 @@
 import json
 import os
 import struct
+import subprocess
 
 import bendy
 import numpy
@@ -161,10 +162,33 @@ def test_validate(mannequin, damaged, program):
     assert set(faults[0].as_dict()) == {"code", "kind", "message", "path", "offset"}
     assert faults[0].code in str(faults[0]) and faults[0].path in str(faults[0])
     with pytest.raises(bendy.MalformedError) as caught:
-        bendy.validate(ROOT / "examples/mannequin.glb")
-    assert caught.value.code == "NOT_A_BENDY_FILE" and "convert" in str(caught.value)
+        bendy.validate(b"Kaydara FBX Binary  \0\x1a\0" + bytes(40))
+    assert caught.value.code == "NOT_A_BENDY_FILE" and "is an FBX file" in str(caught.value)
     assert [fault.kind for fault in bendy.validate(mannequin.read_bytes()[:1000])] == ["malformed"]
     assert bendy.validate(b"")[0].kind == "malformed"
+
+
+def test_validate_and_inspect_convert_sources(tmp_path):
+    source = ROOT / "examples/mannequin.glb"
+    faults = bendy.validate(source)
+    assert faults == [] and faults.warnings == bendy.convert(source).warnings != []
+    broken = tmp_path / "broken.gltf"
+    broken.write_text('{"asset": {"version": "2.0"}, "scenes": [{"nodes": [5]}]}')
+    (fault,) = bendy.validate(broken)
+    assert (fault.code, fault.kind, fault.path) == ("CONVERSION", "invalid", "scenes[0].nodes[0]")
+    assert [chunk.sum for chunk in bendy.inspect(source).walk()] == [
+        chunk.sum for chunk in bendy.inspect(bendy.convert(source)).walk()]
+
+
+def test_files_that_nothing_reads_are_named(tmp_path, program):
+    for name, content in (("a.fbx", b"Kaydara FBX Binary  \0\x1a\0" + bytes(40)), ("a.usdc", b"PXR-USDC" + bytes(80))):
+        path = tmp_path / name
+        path.write_bytes(content)
+        said = subprocess.run([os.environ["BENDY_PROGRAM"], "pose", path], capture_output=True, text=True).stderr
+        for read in (bendy.open, bendy.edit, bendy.inspect, bendy.convert):
+            with pytest.raises(bendy.ConversionError) as caught:
+                read(path)
+            assert f"bendy: error: {caught.value}\n" == said
 
 
 def test_inspect(mannequin, program):
