@@ -56,6 +56,9 @@ py::list warnings_of(const converter::Report& report) {
 
 // Conversion.
 
+/// Ends a conversion from within its progress.
+struct Stopped {};
+
 /// The name of a file, with a folder in front: names that the file holds start there.
 std::filesystem::path in_a_folder(const std::filesystem::path& file) {
     return file.empty() || file.has_parent_path() ? file : "." / file;
@@ -91,23 +94,23 @@ py::tuple convert_source(const std::filesystem::path& file, const SourcePointer&
     }
     std::exception_ptr stopped;
     double told = -1.0;
-    if (!progress.is_none()) {
-        options.progress = [&](double done) {
-            constexpr double kStep = 0.01;
-            if (stopped != nullptr || (done < told + kStep && done < 1.0)) return;
-            told = done;
-            const py::gil_scoped_acquire acquired;
-            try {
-                progress(done);
-            } catch (...) {
-                stopped = std::current_exception();
-            }
-        };
-    }
+    options.progress = [&](double done) {
+        constexpr double kStep = 0.01;
+        if (stopped != nullptr) throw Stopped();
+        if (done < told + kStep && done < 1.0) return;
+        told = done;
+        const py::gil_scoped_acquire acquired;
+        try {
+            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+            if (!progress.is_none()) progress(done);
+        } catch (...) {
+            stopped = std::current_exception();
+            throw Stopped();
+        }
+    };
     converter::Report report;
     std::string json;
-    auto converted = [&]() -> Result<std::vector<std::byte>, converter::ImportError> {
-        const py::gil_scoped_release released;
+    const auto work = [&]() -> Result<std::vector<std::byte>, converter::ImportError> {
         if (source == nullptr) {
             if (const std::string why = converter::why_not_convertible(file); !why.empty())
                 return converter::ImportError{{}, why};
@@ -120,6 +123,14 @@ py::tuple convert_source(const std::filesystem::path& file, const SourcePointer&
                                               source->is_mapped() ? in_a_folder(file) : file, options, report);
         if (bytes) json = cli::json_text(cli::converted_report(file, output, report, *bytes));
         return bytes;
+    };
+    auto converted = [&]() -> Result<std::vector<std::byte>, converter::ImportError> {
+        const py::gil_scoped_release released;
+        try {
+            return work();
+        } catch (const Stopped&) {
+            return converter::ImportError();  // `stopped` says why
+        }
     }();
     if (stopped != nullptr) std::rethrow_exception(stopped);
     if (!converted) raise_import(converted.error(), file);

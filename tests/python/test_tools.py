@@ -2,8 +2,10 @@
 
 import json
 import os
+import signal
 import struct
 import subprocess
+import time
 
 import bendy
 import numpy
@@ -337,8 +339,31 @@ def test_progress():
     assert shares and shares == sorted(shares) and 0 <= shares[0] and shares[-1] <= 1
     assert bytes(made.data) == bytes(bendy.convert(ROOT / "examples/mannequin.glb", compact=True, jobs=1).data)
 
-    def stop(share):
-        raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt):
-        bendy.convert(ROOT / "examples/mannequin.glb", compact=True, progress=stop)
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_conversion_is_stopped(jobs):
+    """By what progress raises and by a signal: in less than half of the processor time that the whole conversion takes."""
+    def cost(**options):
+        start = time.process_time()
+        try:
+            bendy.convert(ROOT / "examples/mannequin.glb", compact=True, jobs=jobs, **options)
+        finally:
+            spent.append(time.process_time() - start)
+
+    def stop(share):
+        raise LookupError(share)
+
+    spent = []
+    cost()
+    with pytest.raises(LookupError):
+        cost(progress=stop)
+    before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            signal.setitimer(signal.ITIMER_REAL, 0.001)
+            cost()
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert max(spent[1:]) < 0.5 * spent[0]

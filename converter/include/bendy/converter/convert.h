@@ -37,7 +37,7 @@ struct ConvertOptions {
     std::string skeleton;
     /// Encode for size: no point of the skin moves further than this. Nothing: exact.
     std::optional<ErrorBound> compact;
-    /// Called now and then with the share of the work that is done, 0 to 1, by one thread at a time; may be empty.
+    /// Empty, or told the share that is done, 0 to 1, by one thread at a time. What it throws ends `convert`.
     std::function<void(double)> progress;
     /// Compute the sequence in which vertices are collapsed (LODD), and order the vertices by it.
     bool lod = false;
