@@ -144,7 +144,9 @@ void run(const ValidateArguments& arguments) {
     nlohmann::json reports = nlohmann::json::array();
     for (const std::filesystem::path& file : arguments.files) {
         Result<InputBytes> mapped = InputBytes::open(file);
-        const bool is_source = mapped && converter::is_converted(mapped->bytes(), file) &&
+        // What is called a bendy file is judged as one, whatever it is.
+        const bool is_source = mapped && file.extension() != ".bendy" &&
+                               converter::is_converted(mapped->bytes(), file) &&
                                converter::why_not_convertible(mapped->bytes(), file).empty();
         const Verdict verdict = is_source ? validate_source(file, std::move(*mapped), arguments.root, arguments.json)
                                           : validate_bendy(file, mapped, arguments.json);
