@@ -95,7 +95,7 @@ public:
         if (chunk == kNone || rewrite_.is_removed(chunk)) return;
         const auto made = extensions::renumber_extensions(as_text(source_.tree.payload(chunk)), host, numbers);
         if (!made) {
-            log_.warnings.push_back("extensions are not a JSON object: numbers in them stay as they are");
+            log_.warnings.emplace_back("extensions are not a JSON object: numbers in them stay as they are");
             return;
         }
         gone_.insert(gone_.end(), made->gone.begin(), made->gone.end());

@@ -76,9 +76,11 @@ bool is_minus_one(const Json& value) {
 
 // NOLINTNEXTLINE(misc-no-recursion): the nesting is bounded
 bool has_whole_number(const Json& value) {
-    if (value.is_structured())
-        return std::any_of(value.begin(), value.end(), [](const Json& each) { return has_whole_number(each); });
-    return number_in(value).has_value();
+    if (!value.is_structured()) return number_in(value).has_value();
+    for (const Json& each : value) {
+        if (has_whole_number(each)) return true;
+    }
+    return false;
 }
 
 /// The numbers of one extension.

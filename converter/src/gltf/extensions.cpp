@@ -301,9 +301,10 @@ private:
         const auto host = place.empty() ? extensions::Host::root : extensions::Host::node;
         const auto made = extensions::renumber_extensions(kept.dump(), host, std::ref(numbers_));
         if (!made) fail(place, "the extensions are nested too deep");
+        const std::string before = place.empty() ? "extensions." : place + ".extensions.";
         for (const std::string& gone : made->gone) {
             document_.report.warn("an extension names what is not there: its entry is left out",
-                                  (place.empty() ? "extensions." : place + ".extensions.") + gone);
+                                  std::string(before).append(gone));
         }
         return made->json;
     }

@@ -136,8 +136,10 @@ void add_extensions(Json& object, const std::string& extensions, extensions::Hos
     if (extensions.empty()) return;
     const auto renumbered = extensions::renumber_extensions(extensions, host, numbers);
     if (!renumbered) return report.warn("extensions left out, they are not a JSON object", place);
-    for (const std::string& gone : renumbered->gone)
-        report.warn("an extension names what is not there: its entry is left out", place + '.' + gone);
+    for (const std::string& gone : renumbered->gone) {
+        report.warn("an extension names what is not there: its entry is left out",
+                    std::string(place).append(".").append(gone));
+    }
     for (const std::string& name : renumbered->unknown)
         report.warn("extension of which the meaning of numbers is not known, written as it is: " + quote(name), place);
     add_json(object, "extensions", renumbered->json, place, report);

@@ -36,7 +36,10 @@ std::vector<bool> find_moving_joints(const Scene& scene) {
             if (mesh.weights[n] > 0.0f) moves[mesh.palette.joints[mesh.bones[n]]] = true;
         }
     }
-    if (std::find(moves.begin(), moves.end(), true) == moves.end()) return std::vector<bool>(moves.size(), true);
+    if (std::find(moves.begin(), moves.end(), true) == moves.end()) {
+        moves.assign(moves.size(), true);
+        return moves;
+    }
     for (std::size_t joint = moves.size(); joint-- > 0;) {
         const std::uint32_t parent = scene.joints[joint].parent;
         if (moves[joint] && parent != kNone) moves[parent] = true;

@@ -64,7 +64,8 @@ Result<Flags, KeyProblem> joints_below(const Scene& scene, const std::string& to
     const auto joint = find_by_key(names, top, "joint");
     if (!joint) return joint.error();
     Flags found(scene.joints.size());
-    std::fill(found.begin() + *joint, found.begin() + JointIndex(scene).end(static_cast<std::uint32_t>(*joint)), true);
+    const auto first = static_cast<std::uint32_t>(*joint);
+    std::fill(found.begin() + first, found.begin() + JointIndex(scene).end(first), true);
     return found;
 }
 

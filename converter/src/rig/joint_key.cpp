@@ -193,6 +193,7 @@ std::string JointIndex::suggest(std::string_view key) const {
     for (const auto& [name, joints] : by_name_) firsts.emplace_back(joints.front(), name);
     std::sort(firsts.begin(), firsts.end());
     std::vector<std::string_view> names;
+    names.reserve(firsts.size());
     for (const auto& [joint, name] : firsts) names.push_back(name);
     return did_you_mean(names, key);
 }
