@@ -258,7 +258,9 @@ private:
     }
 
     void keep_texture(std::size_t index) {
-        const Json& texture = root_["textures"][index];
+        static const Json kNoMembers = Json::object();  // of a texture that was added for its image
+        const Json& textures = array_of(root_, "textures");
+        const Json& texture = index < textures.size() ? textures[index] : kNoMembers;
         Json more = further_members(texture, Element::texture);
         if (const Json* sampler = find(texture, "sampler"); sampler != nullptr)
             add(more, "sampler", further_members(root_["samplers"][sampler->get<std::size_t>()], Element::sampler));

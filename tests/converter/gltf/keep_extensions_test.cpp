@@ -67,7 +67,7 @@ TEST(GltfKeptExtensions, NumbersOfMeshesImagesAndMaterialsAreTheScenes) {
     gltf.json["nodes"][0]["mesh"] = 1;
     gltf.json["images"] = {{{"uri", "a.png"}}, {{"uri", "b.png"}, {"name", "Thumbnail"}}};
     gltf.json["textures"] = {{{"source", 0}}};
-    gltf.json["materials"] = {Json::object()};
+    gltf.json["materials"] = Json::array({Json::object()});
     gltf.json["extensions"]["VRM"] = {
         {"firstPerson", {{"meshAnnotations", {{{"mesh", 0}, {"firstPersonFlag", "Auto"}}, {{"mesh", 1}}}}}},
         {"materialProperties",
