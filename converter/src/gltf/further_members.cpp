@@ -258,9 +258,9 @@ private:
     }
 
     void keep_texture(std::size_t index) {
-        static const Json kNoMembers = Json::object();  // of a texture that was added for its image
+        const Json no_members = Json::object();  // of a texture that was added for its image
         const Json& textures = array_of(root_, "textures");
-        const Json& texture = index < textures.size() ? textures[index] : kNoMembers;
+        const Json& texture = index < textures.size() ? textures[index] : no_members;
         Json more = further_members(texture, Element::texture);
         if (const Json* sampler = find(texture, "sampler"); sampler != nullptr)
             add(more, "sampler", further_members(root_["samplers"][sampler->get<std::size_t>()], Element::sampler));
