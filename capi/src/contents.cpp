@@ -14,7 +14,7 @@
 namespace bendy::capi {
 namespace {
 
-/// `there is no clip "Rum"; did you mean "Run"? There are: "Walk", "Run"`
+/// For example: `there is no clip "Rum"; did you mean "Run"? There are: "Walk", "Run"`
 std::string not_found(std::string_view kind, std::string_view name, const std::vector<std::string>& names) {
     constexpr std::size_t kEnough = 400;  // what a message shows
     std::string text = "there is no " + std::string(kind) + " \"" + std::string(name) + '"';

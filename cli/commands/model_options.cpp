@@ -78,7 +78,8 @@ std::string in_millimetres(float metres) {
     return text.str() + " mm";
 }
 
-/// What is left between the tip and its target. An aim turns the tip and does not bring it nearer.
+/// The remaining distance to the target, or the remaining angle if the chain aims: an aim turns the tip and does not
+/// move it.
 std::string gap_of(const ReachGoal& goal, const ReachResult& result) {
     std::string gap = in_millimetres(result.distance);
     if (result.status == ReachStatus::aimed) return gap + " away";

@@ -65,7 +65,7 @@ std::string text_of(const DanglingLink& link) {
     return "linked image does not exist: " + link.uri;
 }
 
-/// What is said of one file.
+/// The result for one file.
 struct Verdict {
     bool is_valid = false;
     nlohmann::json json;

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace bendy::edit {
 namespace {
@@ -99,9 +101,7 @@ public:
             return;
         }
         gone_.insert(gone_.end(), made->gone.begin(), made->gone.end());
-        for (const std::string& name : made->unknown) {
-            if (std::find(unknown_.begin(), unknown_.end(), name) == unknown_.end()) unknown_.push_back(name);
-        }
+        unknown_.insert(made->unknown.begin(), made->unknown.end());
         if (made->json.empty()) {
             rewrite_.remove(chunk);
         } else {
@@ -127,7 +127,8 @@ private:
     const Source& source_;
     Rewrite& rewrite_;
     Log& log_;
-    std::vector<std::string> gone_, unknown_;
+    std::vector<std::string> gone_;
+    std::set<std::string> unknown_;
 };
 
 }  // namespace

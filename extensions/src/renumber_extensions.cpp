@@ -11,7 +11,7 @@
 namespace bendy::extensions {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;  // members by name: in a list of them, each would be looked for one by one
 
 /// What is taken out with a number.
 enum class Gone : std::uint8_t { entry, entry_or_list, member, all, minus_one };
@@ -38,8 +38,6 @@ constexpr std::array<std::string_view, 9> kWithoutReferences{
     "KHR_node_selectability", "KHR_texture_transform", "KHR_xmp_json_ld"};
 /// Of materials: their numbers are factors and texture infos.
 constexpr std::array<std::string_view, 2> kMaterials{"KHR_materials_", "VRMC_materials_"};
-
-constexpr std::size_t kMostLevels = 128;
 
 /// Whether brackets are nested deeper than what may be parsed, copied and printed by recursion.
 bool is_too_deep(std::string_view text) {

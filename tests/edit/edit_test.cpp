@@ -63,7 +63,7 @@ TEST(Strip, TextureNumbersInExtensionsAreMended) {
         return std::string(as_text(at(file, "HEAD/MATE/EXTN").payload));
     };
     EXPECT_EQ(after(R"({"X":{"f":1,"aTexture":{"index":2, "scale":2},"g":{"index":1}}})", "skin"),
-              R"({"X":{"f":1,"aTexture":{"index":1,"scale":2},"g":{"index":1}}})");
+              R"({"X":{"aTexture":{"index":1,"scale":2},"f":1,"g":{"index":1}}})");
     EXPECT_EQ(after(R"({"X":{"aTexture":{"index":0},"f":1}})", "skin"), R"({"X":{"f":1}})");
     EXPECT_EQ(after(R"({"X":{"f":1, "aTexture":{"index":0}}})", "skin"), R"({"X":{"f":1}})");
     EXPECT_EQ(after(R"({"X":{"aTexture":{"index":0},"bTexture":{"index":0}}})", ""), R"({"X":{}})");

@@ -172,6 +172,8 @@ namespace {
 
 constexpr std::string_view kVariants = "KHR_materials_variants";
 
+static_assert(extensions::kMostLevels >= kMostJsonLevels, "what has been read can be renumbered");
+
 /// What to say of an extension that is kept; empty for one that is interpreted in full.
 std::string kept_message(const std::string& name) {
     if (name == "AGI_articulations") return {};
@@ -212,9 +214,9 @@ public:
             }
             case extensions::Thing::material:
             case extensions::Thing::rows_of_materials:
-                return below(number, scene_.materials.size());
+                return extensions::below(number, scene_.materials.size());
             case extensions::Thing::texture:
-                return below(number, scene_.textures.size());
+                return extensions::below(number, scene_.textures.size());
             case extensions::Thing::image:
                 return texture_with(number);
             case extensions::Thing::element:
@@ -227,9 +229,6 @@ private:
     static std::optional<std::uint32_t> there(std::uint32_t number) {
         return number == kNone ? std::nullopt : std::optional(number);
     }
-    static std::optional<std::uint32_t> below(std::uint32_t number, std::size_t count) {
-        return number < count ? std::optional(number) : std::nullopt;
-    }
 
     [[nodiscard]] std::optional<std::uint32_t> mesh_of(std::uint32_t source) const {
         const auto mesh = mesh_of_source_.find(source);
@@ -237,7 +236,7 @@ private:
     }
 
     [[nodiscard]] std::optional<std::uint32_t> target_of(std::uint32_t mesh, std::uint32_t target) const {
-        return below(target, scene_.meshes[mesh].targets.size());
+        return extensions::below(target, scene_.meshes[mesh].targets.size());
     }
 
     /// A texture that begins with the image; a new one if there is none, because a file keeps images in textures.

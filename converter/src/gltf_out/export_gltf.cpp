@@ -145,7 +145,7 @@ public:
     std::optional<std::uint32_t> operator()(extensions::Thing thing, std::uint32_t number, std::uint32_t owner) const {
         switch (thing) {
             case extensions::Thing::joint:
-                return below(number, scene_.joints.size());
+                return extensions::below(number, scene_.joints.size());
             case extensions::Thing::mesh:
                 return number < meshes_.size() && meshes_[number] != kNone ? std::optional(meshes_[number])
                                                                            : std::nullopt;
@@ -155,9 +155,9 @@ public:
                 return target_of(owner, number);
             case extensions::Thing::material:
             case extensions::Thing::rows_of_materials:
-                return below(number, scene_.materials.size());
+                return extensions::below(number, scene_.materials.size());
             case extensions::Thing::texture:
-                return below(number, scene_.textures.size());
+                return extensions::below(number, scene_.textures.size());
             case extensions::Thing::image:
                 if (number >= scene_.textures.size() || scene_.textures[number].images.empty()) return std::nullopt;
                 return scene_.textures[number].images.front();
@@ -168,12 +168,9 @@ public:
     }
 
 private:
-    static std::optional<std::uint32_t> below(std::uint32_t number, std::size_t count) {
-        return number < count ? std::optional(number) : std::nullopt;
-    }
-
     [[nodiscard]] std::optional<std::uint32_t> target_of(std::uint32_t mesh, std::uint32_t target) const {
-        return mesh < scene_.meshes.size() ? below(target, scene_.meshes[mesh].targets.size()) : std::nullopt;
+        return mesh < scene_.meshes.size() ? extensions::below(target, scene_.meshes[mesh].targets.size())
+                                           : std::nullopt;
     }
 
     const Scene& scene_;

@@ -8,6 +8,17 @@
 
 namespace bendy::converter {
 
+namespace {
+
+void add_ancestors(const Scene& scene, std::vector<bool>& chosen) {
+    for (std::size_t joint = chosen.size(); joint-- > 0;) {
+        const std::uint32_t parent = scene.joints[joint].parent;
+        if (chosen[joint] && parent != kNone) chosen[parent] = true;
+    }
+}
+
+}  // namespace
+
 std::vector<bool> find_bound_joints(const Scene& scene) {
     std::vector<bool> bound(scene.joints.size());
     bool has_any = false;
@@ -18,10 +29,7 @@ std::vector<bool> find_bound_joints(const Scene& scene) {
         bound.assign(bound.size(), true);
         return bound;
     }
-    for (std::size_t joint = bound.size(); joint-- > 0;) {
-        const std::uint32_t parent = scene.joints[joint].parent;
-        if (bound[joint] && parent != kNone) bound[parent] = true;
-    }
+    add_ancestors(scene, bound);
     return bound;
 }
 
@@ -40,10 +48,7 @@ std::vector<bool> find_moving_joints(const Scene& scene) {
         moves.assign(moves.size(), true);
         return moves;
     }
-    for (std::size_t joint = moves.size(); joint-- > 0;) {
-        const std::uint32_t parent = scene.joints[joint].parent;
-        if (moves[joint] && parent != kNone) moves[parent] = true;
-    }
+    add_ancestors(scene, moves);
     return moves;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -9,6 +10,9 @@
 
 // glTF extensions that are kept as JSON (EXTN), and the numbers in them: references.def.
 namespace bendy::extensions {
+
+/// Of arrays and objects in each other: what copies or prints JSON recurses.
+inline constexpr std::size_t kMostLevels = 128;
 
 /// What a number in an extension means.
 enum class Thing : std::uint8_t {
@@ -29,15 +33,21 @@ enum class Host : std::uint8_t { root, node, material };
 /// The new number of a thing, or nothing if it is not there. \param owner  of targets: the number of the joint or mesh
 using NewNumber = std::function<std::optional<std::uint32_t>(Thing thing, std::uint32_t number, std::uint32_t owner)>;
 
+/// The number itself, if there are more things than that.
+inline std::optional<std::uint32_t> below(std::uint32_t number, std::size_t count) {
+    return number < count ? std::optional(number) : std::nullopt;
+}
+
 struct Renumbered {
-    std::string json;  ///< an object, or empty if no extension is left; the very same text if no number has changed
+    std::string json;  ///< an object, or empty if no extension is left; the very same text if no number has changed,
+                       ///< else members by name
     std::vector<std::string> gone;     ///< what was taken out: "VRM.humanoid.humanBones[3].node"
     std::vector<std::string> unknown;  ///< with whole numbers whose meaning is not known; not of materials
 };
 
 /// Puts the new numbers into extensions, and takes out the entries whose things are not there any more. Of a material
 /// also the texture of each "...Texture": {"index": ...}, whatever the extension. \param json  an object of extensions
-/// by name. Nothing if it is no such object, or is nested deeper than 128 levels
+/// by name. Nothing if it is no such object, or is nested deeper than kMostLevels
 std::optional<Renumbered> renumber_extensions(std::string_view json, Host host, const NewNumber& now);
 
 /// True if the meaning of all numbers in an extension of that name is known.
