@@ -1,5 +1,5 @@
 """Imports and exports Bendy files, and writes joint limits and IK chains into the extras of glTF files (Bendy's spec/rig.md)."""
-from . import export_operator, import_operator, pose_constraints, preferences
+from . import export_operator, import_operator, limits_panel, pose_constraints, preferences
 from .export_hooks import finish_export as glTF2_post_export_callback       # the exporter looks for these names
 from .export_hooks import RigExtras as glTF2ExportUserExtension
 from .import_hooks import ImportHooks as glTF2ImportUserExtension
@@ -15,7 +15,7 @@ bl_info = {
     'location': 'File > Import, File > Export',
     'category': 'Import-Export',
 }
-PARTS = (preferences, import_operator, export_operator, pose_constraints)
+PARTS = (preferences, import_operator, export_operator, pose_constraints, limits_panel)
 
 
 def register():

@@ -130,6 +130,23 @@ def complete(actions, rest):
                     curves_to_add_to(action).new(path, index=index).keyframe_points.insert(first, value)
 
 
+def at_rest(action, name, first, rest):
+    """A copy of an owner's action that keeps what it moves at rest. first: the frame of its only key; rest: data path -> values."""
+    still = action.copy()
+    still.name = name
+    for key in list(still.keys()):
+        del still[key]
+    while still.pose_markers:
+        still.pose_markers.remove(still.pose_markers[0])
+    for curve in action_curves(still):
+        points = curve.keyframe_points
+        while len(points) > 1:
+            points.remove(points[-1], fast=True)
+        points[0].co = (first, rest[curve.data_path][curve.array_index] if curve.data_path in rest else points[0].co.y)
+        curve.update()
+    return still
+
+
 def is_identity(path, values):
     wanted = {'scale': (1.0, 1.0, 1.0), 'location': (0.0, 0.0, 0.0)}.get(path.rsplit('.', 1)[-1], (1.0, 0.0, 0.0, 0.0))
     return math.dist(values, wanted) < 1e-5

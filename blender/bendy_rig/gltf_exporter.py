@@ -1,9 +1,11 @@
 """Runs Blender's glTF exporter with this add-on's hooks, and checks what it wrote."""
+import contextlib
 import json
 
 import bpy
 
 from .export_hooks import LastExport
+from .kept_records import REST, kept
 from .known_hooks import hooks_in_preferences
 from .written_file import count_records, read_document
 
@@ -43,7 +45,7 @@ def run_exporter(context, path, options):
     frame, influences = context.scene.frame_current, constraint_influences()
     LastExport.must_succeed = True
     try:
-        with hooks_in_preferences(context):
+        with hooks_in_preferences(context), objects_at_rest():
             if 'FINISHED' not in bpy.ops.export_scene.gltf(**options):
                 raise RuntimeError(f'{path} was not written')
     finally:
@@ -52,6 +54,44 @@ def run_exporter(context, path, options):
             context.scene.frame_set(frame)
         for constraint, influence in influences:
             constraint.influence = influence
+
+
+@contextlib.contextmanager
+def objects_at_rest():
+    """The exporter writes where objects are in the current frame. Those of an import that clips move are put where they rest."""
+    moved = []                      # (owner, its action, data path -> values before)
+    for owner in (*bpy.data.objects, *bpy.data.shape_keys):
+        animation, rest = owner.animation_data, kept(owner, REST)
+        if not (animation and isinstance(rest, dict)) or not is_in_track(animation):
+            continue
+        before = {path: value_of(owner, path) for path in rest}
+        moved.append((owner, animation.action, before))
+        animation.action = None
+        for path, values in rest.items():
+            set_value(owner, path, values)
+    try:
+        yield
+    finally:
+        for owner, action, before in moved:
+            for path, values in before.items():
+                set_value(owner, path, values)
+            owner.animation_data.action = action
+
+
+def is_in_track(animation):
+    """Whether the exporter finds the active action without it being active."""
+    return animation.action is None or any(strip.action == animation.action for track in animation.nla_tracks for strip in track.strips)
+
+
+def value_of(owner, path):
+    value = owner.path_resolve(path)
+    return [value] if isinstance(value, float) else list(value)
+
+
+def set_value(owner, path, values):
+    place, _, name = path.rpartition('.')
+    part = owner.path_resolve(place) if place else owner
+    setattr(part, name, values[0] if len(values) == 1 else values)
 
 
 def constraint_influences():

@@ -9,14 +9,15 @@ import bpy
 
 from . import import_rig
 from .chain_settings import HELPER, ROOT
-from .clip_curves import action_curves, complete, fitting_rate, is_on_frame, put_on_frames, turn_evenly
+from .clip_curves import action_curves, at_rest, complete, fitting_rate, is_on_frame, put_on_frames, turn_evenly
 from .import_hooks import ImportedFile, LastImport
-from .kept_records import CLIP
+from .kept_records import CLIP, REST, keep
 from .known_hooks import hooks_in_preferences
 from .program import BendyError, run_program
 
 # Bones get the joints' own axes, which limits and an export need, and the rest pose of the file.
 IMPORTER_OPTIONS = {'bone_heuristic': 'BLENDER', 'guess_original_bind_pose': False, 'merge_vertices': False, 'disable_bone_shape': True}
+MOST_ACTIONS = 10000                # that are made for clips and objects which a clip leaves alone
 COLLECTIONS = ('objects', 'armatures', 'meshes', 'shape_keys', 'actions', 'materials', 'images', 'textures', 'cameras', 'lights',
                'collections', 'node_groups')
 
@@ -171,10 +172,40 @@ def finish_clips(context, file, imported):
         if is_between:
             between_frames.append(clip.track_name)
         import_rig.add_markers(clip, clip.extras.get('markers', []), rate)
+    add_still_actions(file, by_owner, imported)
     for owner, actions in by_owner.items():
         complete(actions, file.rest.get(owner, {}))
+        moving = {curve.data_path for curve in action_curves(actions[0]) if not curve.data_path.startswith('pose.')}
+        if moving:
+            keep(owner, REST, {path: values for path, values in file.rest.get(owner, {}).items() if path in moving})
     if between_frames:
         imported.notes.append((f'keys are between frames, and an export samples {rate} frames a second', between_frames))
+
+
+def add_still_actions(file, by_owner, imported):
+    """What a clip leaves alone and others move gets an action that holds it at rest. Blender would leave it as the last clip had it."""
+    clips = [(number, clip) for number, clip in enumerate(reversed(file.clips)) if clip.actions]
+    if len(clips) * len(by_owner) > MOST_ACTIONS:
+        imported.notes.append(('objects that a clip does not move stay as the clip before has left them', [f'{len(by_owner)} objects']))
+        return
+    for owner, actions in by_owner.items():
+        moving = {action[CLIP] for action in actions}
+        for number, clip in clips:
+            if number in moving:
+                continue
+            first = min(action.frame_range[0] for _, action in clip.actions)
+            action = at_rest(actions[0], f'{clip.track_name}_{owner.name}', first, file.rest.get(owner, {}))
+            action[CLIP] = number
+            stash(owner, clip.track_name, action)
+            actions.append(action)
+
+
+def stash(owner, track_name, action):
+    """As the importer does it."""
+    track = owner.animation_data.nla_tracks.new()
+    track.name = track_name
+    track.strips.new(action.name, bpy.context.scene.frame_start, action)
+    track.lock = track.mute = True
 
 
 def what_failed(error):

@@ -4,7 +4,7 @@ import json
 import re
 
 import bpy
-from mathutils import Vector
+from mathutils import Matrix, Vector
 
 from . import chain_settings, joint_settings
 from .chain_settings import CONTROL, HELPER, TIP
@@ -119,12 +119,14 @@ def escaped(name):
 def make_bones(rig, chains):
     """Gives the last bones of chains their length, or makes bones for tips; makes controls. Returns (owner, helpers) of each chain."""
     made, lengths, found = [], {}, []           # made: (bone, kind)
+    lengths_before = {}
     with edit_mode(rig):
         bones = rig.data.edit_bones
         for record, settings in chains:
             owner, tip, helpers = settings['joints'][-1], settings['tip'], {}
             is_along = tip.y > SHORTEST_BONE and Vector((tip.x, 0.0, tip.z)).length <= chain_settings.ALONG_BONE * tip.y
             if is_along and abs(lengths.setdefault(owner, tip.y) - tip.y) <= chain_settings.TOLERANCE:
+                lengths_before.setdefault(owner, bones[owner].length)
                 bones[owner].length = tip.y
             else:
                 owner = add_bone(bones, f'{record["name"]} tip', bones[owner].head, settings['target_place'], bones[owner])
@@ -136,12 +138,21 @@ def make_bones(rig, chains):
                     helpers[what] = add_bone(bones, f'{record["name"]} {what}', place, place + Vector((0.0, 0.0, size)))
                     made.append((helpers[what], CONTROL))
             found.append((owner, helpers))
+    keep_places(rig, lengths_before)
     for name, kind in made:
         bone = rig.pose.bones[name]
         bone[HELPER], bone.rotation_mode = kind, 'QUATERNION'
         if kind == TIP:
             bone.lock_ik_x = bone.lock_ik_y = bone.lock_ik_z = True
     return found
+
+
+def keep_places(rig, lengths):
+    """Objects on a bone hang on its tail. lengths: name of a bone -> the length that it had."""
+    for obj in bpy.data.objects:
+        if obj.parent == rig and obj.parent_type == 'BONE' and obj.parent_bone in lengths:
+            longer = rig.data.bones[obj.parent_bone].length - lengths[obj.parent_bone]
+            obj.matrix_parent_inverse = Matrix.Translation((0.0, -longer, 0.0)) @ obj.matrix_parent_inverse
 
 
 def add_bone(bones, name, head, tail, parent=None):

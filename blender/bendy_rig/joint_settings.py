@@ -2,6 +2,7 @@
 
 Settings are plain data, so that an export can compare what the import would set with what the bone has now.
 """
+import json
 import math
 
 from mathutils import Quaternion
@@ -10,26 +11,28 @@ from .shortest import as_float32
 
 LETTERS = 'xyz'
 ALONG_AXIS = 1e-6                   # sine of the angle between an axis of a constraint's frame and the bone's axis that it is on
+NEAR_AXIS = 0.5                     # the same, of an axis whose IK limits are given to the bone's nearest axis: 30 degrees
 STIFFEST = 0.99                     # Blender's largest IK stiffness
 NO_RANGE = (None, None)
 HALF_TURN = as_float32(math.pi)
 OTHER_AXES = ' about other axes than the bone\'s'
+AXES_OF_MODEL = {'hinge': 1, 'euler_box': 3, 'swing_twist_ellipse': 3, 'swing_twist_pyramid': 3}     # of the frame, that a model is about
 UNUSED = {'soft_zone': 'soft zone', 'preferred': 'preferred angles'}     # keys of a constraint that Blender has no setting for
 
 
 class Axes:
     """Which axes of the bone the axes of a constraint's frame are; None of it if they lie between the bone's axes."""
 
-    def __init__(self, frame):
+    def __init__(self, frame, tolerance=ALONG_AXIS):
         x, y, z, w = frame or (0.0, 0.0, 0.0, 1.0)
         matrix = Quaternion((w, x, y, z)).normalized().to_matrix()
-        self.of = [self.bone_axis(matrix.col[i]) for i in range(3)]      # frame's axis -> (bone's axis, sign) or None
+        self.of = [self.bone_axis(matrix.col[i], tolerance) for i in range(3)]      # frame's axis -> (bone's axis, sign) or None
 
     @staticmethod
-    def bone_axis(column):
+    def bone_axis(column, tolerance):
         axis = max(range(3), key=lambda i: abs(column[i]))
         others = max(abs(column[i]) for i in range(3) if i != axis)
-        return (axis, 1 if column[axis] > 0 else -1) if others < ALONG_AXIS else None
+        return (axis, 1 if column[axis] > 0 else -1) if others < tolerance else None
 
     def are_bone_axes(self):
         return all(self.of)
@@ -128,28 +131,16 @@ def add_pose_limits(settings, constraint, notes):
 def add_ik_limits(settings, constraint, notes):
     """The pose bone's Inverse Kinematics panel: what Blender's IK solver obeys, an ellipse of swings and a range of twists about Y."""
     axes, model = Axes(constraint.get('frame')), constraint['model']
-    ranges, is_same = {}, True
-    if model == 'locked':
-        ranges = {axis: (0.0, 0.0) for axis in LETTERS}
-    elif model == 'hinge' and axes.of[0]:
-        about = LETTERS[axes.of[0][0]]
-        ranges = {**{axis: (0.0, 0.0) for axis in LETTERS}, about: axes.ranges(limited(constraint, 'x')).get(about)}
-    elif model in ('swing_twist_ellipse', 'swing_twist_pyramid', 'euler_box') and axes.are_bone_axes():
-        ranges = axes.ranges({**limited(constraint), **half_open(constraint)})
-        moving = [axis for axis in LETTERS if ranges.get(axis) != (0.0, 0.0)]
-        is_same = len(moving) <= 1 or (model == 'swing_twist_ellipse' and axes.of[0][0] == 1)
-    elif model == 'largest_angle':
-        angle = constraint.get('angle')
-        ranges = {axis: (-radians(angle), radians(angle)) for axis in LETTERS} if angle is not None and angle < 180.0 else {}
-        is_same = not ranges
-    elif model != 'free':
-        notes.append(f'no IK limits for {named(model)}{OTHER_AXES}')
+    is_turned = model in AXES_OF_MODEL and not all(axes.of[:AXES_OF_MODEL[model]])
+    ranges, is_same = ik_ranges(Axes(constraint.get('frame'), NEAR_AXIS) if is_turned else axes, constraint)
     for axis, limits in ranges.items():
         if limits:
             low, high = max(min(limits[0], 0.0), -HALF_TURN), min(max(limits[1], 0.0), HALF_TURN)
             is_same = is_same and (low, high) == tuple(limits)
             settings['ik'][axis] = (low, high)
-    if not is_same:
+    if is_turned:
+        notes.append(f'IK limits are about the bone\'s axes, those of {named(model)} about others')
+    elif not is_same:
         notes.append(f'IK limits are close to {named(model)}, not equal')
     stiffness = constraint.get('stiffness', [0.0, 0.0, 0.0])
     if any(stiffness) and axes.are_bone_axes():
@@ -161,9 +152,69 @@ def add_ik_limits(settings, constraint, notes):
         notes.append(f'no IK stiffness for one{OTHER_AXES}')
 
 
+def ik_ranges(axes, constraint):
+    """(bone's axis -> (low, high) in radians, whether they allow what the constraint does). Where no axis of the bone is near, each gets the
+    constraint's largest angle."""
+    model = constraint['model']
+    if model == 'locked':
+        return {axis: (0.0, 0.0) for axis in LETTERS}, True
+    if model == 'largest_angle':
+        angle = constraint.get('angle')
+        return alike(None if angle is None else radians(angle)), angle is None or angle >= 180.0
+    if model == 'hinge' and axes.of[0]:
+        about = LETTERS[axes.of[0][0]]
+        return {**{axis: (0.0, 0.0) for axis in LETTERS}, about: axes.ranges(limited(constraint, 'x')).get(about)}, True
+    if model == 'hinge':
+        return alike(largest(limited(constraint, 'x').values())), False
+    if model not in AXES_OF_MODEL:
+        return {}, True
+    if not axes.are_bone_axes():
+        found = {**limited(constraint), **half_open(constraint)}
+        return alike(largest(found.values()) if len(found) == 3 else None), False
+    ranges = axes.ranges({**limited(constraint), **half_open(constraint)})
+    moving = [axis for axis in LETTERS if ranges.get(axis) != (0.0, 0.0)]
+    return ranges, len(moving) <= 1 or (model == 'swing_twist_ellipse' and axes.of[0][0] == 1)
+
+
+def alike(angle):
+    """The same range for each axis; none for half a turn or more."""
+    return {axis: (-angle, angle) for axis in LETTERS} if angle is not None and angle < HALF_TURN else {}
+
+
+def largest(ranges):
+    return max((abs(end) for limits in ranges for end in limits), default=None)
+
+
 def named(model):
     return {'euler_box': 'an Euler box', 'swing_twist_ellipse': 'a swing-twist ellipse', 'swing_twist_pyramid': 'a swing-twist pyramid',
-            'largest_angle': 'a largest angle', 'hinge': 'a hinge'}[model]
+            'largest_angle': 'a largest angle', 'hinge': 'a hinge', 'locked': 'locked', 'free': 'free'}[model]
+
+
+# ------------------------------------------------------------------------------------------------- words
+
+def described(constraint):
+    """Lines of text: what a constraint of a rig file allows."""
+    model, frame = constraint['model'], constraint.get('frame')
+    angles = [f'{axis} {range_text(constraint[axis])}' for axis in LETTERS if axis in constraint]
+    if 'angle' in constraint:
+        angles.append(f'at most {constraint["angle"]:g}')
+    lines = [f'{named(model).split(" ", 1)[-1].capitalize()}: {", ".join(angles)}' + (' degrees' if angles else '')]
+    if frame and model in AXES_OF_MODEL and not all(Axes(frame).of[:AXES_OF_MODEL[model]]):
+        x, y, z, w = frame
+        columns = Quaternion((w, x, y, z)).normalized().to_matrix().col
+        lines += [f'{LETTERS[i]} is about ({", ".join(f"{number:.2f}" for number in columns[i])}) of the bone'
+                  for i in range(AXES_OF_MODEL[model])]
+    place = constraint.get('translation', {})
+    if place:
+        lines.append('Moves: ' + ', '.join(f'{axis} {range_text(limits)}' for axis, limits in place.items()) + ' m')
+    lines += [f'{key.replace("_", " ").capitalize()}: {json.dumps(constraint[key])}' for key in ('scope', 'order', *UNUSED, 'stiffness')
+              if key in constraint]
+    return lines
+
+
+def range_text(limits):
+    low, high = ('open' if end is None else f'{end:g}' for end in limits)
+    return f'{low} to {high}'
 
 
 # ------------------------------------------------------------------------------------------------- to and from a pose bone

@@ -22,6 +22,7 @@ import tomllib
 import zipfile
 from pathlib import Path
 
+from attached import attached_character
 from strange_rig import strange_rig
 
 SKIPPED = 77
@@ -142,6 +143,10 @@ def check_files(runner, folder, bendy, corpus):
     rig.write_text(json.dumps(strange_rig()), encoding="utf-8")
     files.append(folder / "strange.bendy")
     bendy("convert", "--quiet", runner.source / "examples" / "tentacle.glb", "--rig", rig, "-o", files[-1])
+    for path, text in zip((folder / "attached.gltf", folder / "attached.rig.json"), attached_character()):
+        path.write_text(text, encoding="utf-8")
+    files.append(folder / "attached.bendy")
+    bendy("convert", "--quiet", folder / "attached.gltf", "--rig", folder / "attached.rig.json", "-o", files[-1])
     if corpus and (corpus / "visible").is_dir():
         for name in CORPUS:
             files.append(folder / f"{Path(name).stem}.bendy")

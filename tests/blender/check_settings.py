@@ -17,6 +17,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from limits import angle_between, conjugate, excess, from_euler, normalized, product
 from posing import TOLERANCE, check, evaluated, local_rotation, move_target, one_bone_rig, random_rotation, set_rotation
 from bendy_rig.joint_settings import apply_settings, bone_settings, read_settings
+from bendy_rig.kept_records import CONSTRAINTS, keep
+from bendy_rig.limits_panel import lines_of
 
 POSES = 12
 LETTERS = 'xyz'
@@ -101,6 +103,27 @@ def twists_about_y(frame):
     return abs(abs(2 * (x * y + z * w)) - 1) < 1e-6
 
 
+def check_other_axes(rng):
+    """Axes near the bone's get IK limits about those, others the largest angle; the panel shows the record in words."""
+    rig, bone = one_bone_rig()
+    near = {'model': 'swing_twist_pyramid', 'frame': [0.1, 0, 0, 0.99498744], 'x': [-10, 20], 'y': [-30, 40], 'z': [-50, 60]}
+    settings, notes = bone_settings([near])
+    check({axis: tuple(round(math.degrees(v)) for v in ends) for axis, ends in settings['ik'].items()} ==
+          {'x': (-10, 20), 'y': (-30, 40), 'z': (-50, 60)}, f'{settings}')
+    check(settings['limit_rotation'] is None and len(notes) == 2, f'{settings}, {notes}')
+    far = random_record(rng, 'euler_box', (0.1, 0.4, 0.3, 0.8602325))
+    largest = max(abs(end) for axis in LETTERS for end in far[axis])
+    settings, notes = bone_settings([far])
+    check(all(abs(math.degrees(high) - largest) < 1e-3 and low == -high for low, high in settings['ik'].values()) and
+          len(settings['ik']) == 3, f'{settings}')
+    check(len(notes) == 2 and all('axes' in note for note in notes), f'{notes}')
+    keep(bone, CONSTRAINTS, [far])
+    apply_settings(bone, settings, is_muted=True)
+    lines = [text for _, text in lines_of(bone)]
+    check(lines[0].startswith('Euler box: x ') and sum(' of the bone' in line for line in lines) == 3, f'{lines}')
+    check(all(any(note in line for line in lines) for note in notes), f'{lines}')
+
+
 def main():
     rng, all_frames = random.Random(8), list(frames())
     check(len(all_frames) == 24, f'{len(all_frames)} frames')
@@ -110,8 +133,7 @@ def main():
     check(len(twisting) == 8, f'{len(twisting)} frames twist about Y')
     worst = max(check_ik(rng, frame) for frame in twisting)
     print(f'Settings: IK limits in {len(twisting)} frames, worst {worst:.1e} radians')
-    _, notes = bone_settings([random_record(rng, 'euler_box', (0.1, 0.2, 0.3, 0.9273618))])
-    check(len(notes) == 2 and all('other axes' in note for note in notes), f'{notes}')
+    check_other_axes(rng)
 
 
 main()
