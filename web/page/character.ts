@@ -48,9 +48,28 @@ export class Character {
     this.#box = this.#measure();
   }
 
-  /** Opens a bendy file. Rejects with a BendyError. */
-  static async open(bytes: Uint8Array): Promise<Character> {
-    return new Character(await new BendyLoader().parseAsync(bytes));
+  /** Opens a bendy file. Rejects with a BendyError. `findFile`: the bytes of an image that the file links to. */
+  static async open(bytes: Uint8Array, findFile: (uri: string) => Uint8Array | undefined): Promise<Character> {
+    const manager = new THREE.LoadingManager();
+    const addresses: string[] = [];
+    manager.setURLModifier((uri) => {
+      if (/^data:/i.test(uri)) return uri;
+      const found = findFile(uri);
+      if (!found) throw new Error('it is not among the files that were given: give both at once');
+      const address = URL.createObjectURL(new Blob([found as BlobPart]));
+      addresses.push(address);
+      return address;
+    });
+    try {
+      return new Character(await new BendyLoader(manager).parseAsync(bytes));
+    } finally {
+      for (const address of addresses) URL.revokeObjectURL(address);
+    }
+  }
+
+  /** Why images are missing. */
+  get warnings(): readonly string[] {
+    return this.result.warnings;
   }
 
   get object(): THREE.Object3D {

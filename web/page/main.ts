@@ -238,7 +238,10 @@ async function open({ files, main }: Given, autoRig = false): Promise<void> {
     if (load !== loads) return;
     ({ faults, warnings } = read);
     next = { files, main, name: main.replace(/.*\//, ''), bytes: read.bytes, sourceSize: read.sourceSize };
-    if (faults.length === 0) nextCharacter = await Character.open(read.bytes);
+    if (faults.length === 0) {
+      nextCharacter = await Character.open(read.bytes, (uri) => linkedFile(files, main, uri));
+      warnings = [...warnings, ...nextCharacter.warnings.map((message) => ({ message, place: '', count: 1 }))];
+    }
   } catch (error) {
     const fault = error as Fault & Error;
     if (load !== loads || fault.code === 'STOPPED') return;
@@ -262,6 +265,19 @@ async function open({ files, main }: Given, autoRig = false): Promise<void> {
   if (faults.length !== 0) selectTab('messages');
   else if (selected === 'messages' && faults.length === 0) selectTab('move');
   if (selected === 'inspect') void inspect();
+}
+
+/** The file that a link of the main one names: relative to it, or the only one of that name wherever it is. */
+function linkedFile(files: Record<string, Uint8Array>, main: string, uri: string): Uint8Array | undefined {
+  const nameOf = (path: string): string => path.replace(/.*\//, '').toLowerCase();
+  let link = uri.replace(/\\/g, '/');
+  try {
+    link = decodeURIComponent(link);
+  } catch {} // a name with a % of its own
+  const path = `${main.replace(/[^/]*$/, '')}${link.replace(/^(\.\/)+/, '')}`;
+  const alike = Object.keys(files).filter((name) => nameOf(name) === nameOf(link));
+  const found = files[path] !== undefined ? path : alike.length === 1 ? alike[0]! : undefined;
+  return found === undefined || found === main ? undefined : files[found];
 }
 
 /** The file that the others belong to; undefined if none is a character. */

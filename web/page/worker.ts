@@ -43,6 +43,9 @@ function rigOf(names: string[], main: string): string | undefined {
   return rigs.find((name) => name.toLowerCase() === `${main.replace(/\.[^.]*$/, '')}.rig.json`.toLowerCase()) ?? (rigs.length === 1 ? rigs[0] : undefined);
 }
 
+/** A message without the clause that names an option of `convert`: the page has none. */
+const withoutOption = (message: string): string => message.replace(/(; | unless |: )(?:[^;:]* \(?)?\b(?:ticksPerSecond|mergeClips|instances)\b.*$/, '');
+
 async function read({ files, main, autoRig }: Request & { kind: 'read' }, progress: (share: number) => void): Promise<Answers['read']> {
   const given = files[main]!;
   const rig = rigOf(Object.keys(files), main);
@@ -52,7 +55,7 @@ async function read({ files, main, autoRig }: Request & { kind: 'read' }, progre
   }
   const { bytes, warnings, sources } = await tools.convert(files, { main, autoRig, progress, ...(rig === undefined ? {} : { rig: files[rig]! }) });
   const sourceSize = Object.entries(files).reduce((sum, [name, { length }]) => sum + (name === main || sources.includes(name) ? length : 0), 0);
-  return { bytes, warnings, faults: [], sourceSize };
+  return { bytes, warnings: warnings.map((warning) => ({ ...warning, message: withoutOption(warning.message) })), faults: [], sourceSize };
 }
 
 async function answer(request: Request, progress: (share: number) => void): Promise<Answers[keyof Answers]> {
@@ -77,7 +80,7 @@ self.onmessage = async ({ data: { id, request } }: MessageEvent<{ id: number; re
   try {
     post({ id, answer: await answer(request, (progress) => post({ id, progress })) });
   } catch (error) {
-    const { message } = error as Error;
+    const message = withoutOption((error as Error).message);
     const fault: Fault = error instanceof BendyError ? { code: error.code, message, path: error.path, offset: error.offset } : { code: '', message, path: '' };
     post({ id, fault });
   }

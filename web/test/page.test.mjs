@@ -218,6 +218,43 @@ test('files that belong together are read together', { skip }, async () => {
   await shown('parts.gltf');
 });
 
+test('images that a bendy file links to are drawn, or their absence is said', { skip }, async () => {
+  const pixel = Buffer.from('iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC', 'base64');
+  const quad = {
+    asset: { version: '2.0' },
+    scenes: [{ nodes: [0] }],
+    nodes: [{ mesh: 0 }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0, TEXCOORD_0: 1 }, material: 0 }] }],
+    materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }],
+    textures: [{ source: 0 }],
+    images: [{ uri: 'red%20skin.png' }],
+    accessors: [
+      { bufferView: 0, componentType: 5126, count: 3, type: 'VEC3', min: [0, 0, 0], max: [1, 1, 0] },
+      { bufferView: 1, componentType: 5126, count: 3, type: 'VEC2' },
+    ],
+    bufferViews: [{ buffer: 0, byteLength: 36 }, { buffer: 0, byteOffset: 36, byteLength: 24 }],
+    buffers: [{ byteLength: 60, uri: `data:;base64,${Buffer.from(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1]).buffer).toString('base64')}` }],
+  };
+  const [source, linked, image] = ['quad.gltf', 'quad.bendy', 'red skin.png'].map((name) => join(folder, name));
+  writeFileSync(source, JSON.stringify(quad));
+  writeFileSync(image, pixel);
+  native('convert', '-q', source, '--images', 'uri', '-o', linked);
+  const isTextured = () =>
+    tab.evaluate(() => {
+      let found = false;
+      bendyPage.character.object.traverse(({ material }) => (found ||= Boolean(material?.map?.image)));
+      return found;
+    });
+  await open(linked, image);
+  await shown('quad.bendy');
+  assert.equal(await isTextured(), true);
+  assert.equal(await tab.$eval('#warned', (element) => element.hidden), true);
+  await open(linked);
+  await shown('quad.bendy');
+  assert.equal(await isTextured(), false);
+  assert.match(await text('#warnings'), /red%20skin\.png.*is not among the files/);
+});
+
 test('sixty broken files show their faults, and the page goes on', { skip }, async () => {
   const whole = readFileSync(join(folder, 'expected.bendy'));
   const glb = readFileSync(join(root, 'examples/tentacle.glb'));

@@ -31,6 +31,8 @@ export interface BendyCharacter {
   joints: Object3D[];
   /** What is drawn. */
   parts: Part[];
+  /** Images that could not be loaded, with the reason: one line each. */
+  warnings: readonly string[];
 }
 
 /**
@@ -122,6 +124,7 @@ export async function makeCharacter(model: Model, textures: Textures): Promise<B
     model,
     joints,
     parts: parts.map(({ object, mesh, submeshes }) => ({ object, mesh, submeshes })),
+    warnings: textures.warnings,
   };
 }
 

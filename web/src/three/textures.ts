@@ -54,6 +54,8 @@ export class Textures {
   readonly #options: ImageOptions;
   readonly #loaded = new Map<number, Promise<ThreeTexture | null>>();
   readonly #uses = new Map<string, Promise<ThreeTexture | null>>();
+  /** Why images are missing: one line each. */
+  readonly warnings: string[] = [];
 
   constructor(model: Model, options: ImageOptions) {
     this.#model = model;
@@ -120,7 +122,10 @@ export class Textures {
         if (image.media !== 'other') texture.userData['mimeType'] = `image/${image.media}`;
         return texture;
       } catch (error) {
-        console.warn(`BendyLoader: an image of texture ${source.number} cannot be loaded: ${String(error)}`);
+        const why = error instanceof Error ? error.message : String(error);
+        const name = image.uri === null || /^data:/i.test(image.uri) ? '' : ` ${image.uri}`;
+        this.warnings.push(`the image${name} of texture ${source.number} cannot be loaded: ${why}`);
+        console.warn(`BendyLoader: ${this.warnings.at(-1)}`);
       }
     }
     return null;
