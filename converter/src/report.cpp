@@ -9,6 +9,7 @@
 namespace bendy::converter {
 
 void Report::warn(std::string message, std::string place, std::uint64_t count) {
+    message = with_option_names(message, style_);
     const auto [known, is_new] = place_of_.try_emplace(message, warnings_.size());
     if (!is_new) {
         warnings_[known->second].count += count;
@@ -61,6 +62,37 @@ std::string quote(std::string_view name) {
         }
     }
     return text + '\'';
+}
+
+std::string with_option_names(std::string_view message, OptionStyle style) {
+    if (style == OptionStyle::program) return std::string(message);
+    const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+    std::string text;
+    bool is_quoted = false;
+    for (std::size_t at = 0; at < message.size(); ++at) {
+        const char c = message[at];
+        if (is_quoted && c == '\\') text += message[at++];
+        if (at >= message.size()) break;
+        if (c == '"') is_quoted = !is_quoted;
+        const bool begins_word = at == 0 || message[at - 1] == ' ' || message[at - 1] == '(';
+        const bool is_option = !is_quoted && begins_word && message.substr(at, 2) == "--" && at + 2 < message.size() &&
+                               is_letter(message[at + 2]);
+        if (!is_option) {
+            text += message[at];
+            continue;
+        }
+        for (at += 2; at < message.size() && (is_letter(message[at]) || message[at] == '-'); ++at) {
+            if (message[at] != '-') {
+                text += message[at];
+            } else if (style == OptionStyle::python) {
+                text += '_';
+            } else if (at + 1 < message.size() && is_letter(message[at + 1])) {
+                text += static_cast<char>(message[++at] - 'a' + 'A');
+            }
+        }
+        --at;
+    }
+    return text;
 }
 
 }  // namespace bendy::converter

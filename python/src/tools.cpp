@@ -51,7 +51,8 @@ py::list warnings_of(const converter::Report& report) {
 }
 
 [[noreturn]] void raise_import(const converter::ImportError& error, const std::filesystem::path& file) {
-    raise("ConversionError", error.message, "CONVERSION", error.file.empty() ? file : error.file, error.place);
+    raise("ConversionError", converter::with_option_names(error.message, converter::OptionStyle::python), "CONVERSION",
+          error.file.empty() ? file : error.file, error.place);
 }
 
 // Conversion.
@@ -108,7 +109,7 @@ py::tuple convert_source(const std::filesystem::path& file, const SourcePointer&
             throw Stopped();
         }
     };
-    converter::Report report;
+    converter::Report report(converter::OptionStyle::python);
     std::string json;
     const auto work = [&]() -> Result<std::vector<std::byte>, converter::ImportError> {
         if (source == nullptr) {
@@ -288,7 +289,7 @@ py::object compare_characters(const SourcePointer& a, const SourcePointer& b, co
     if (!bound) throw py::value_error("tolerance: " + bound.error());
     const auto read = [](const SourcePointer& source) {
         require_bendy(*source);
-        converter::Report report;
+        converter::Report report(converter::OptionStyle::python);
         auto character = [&] {
             const py::gil_scoped_release released;
             return cli::read_compared(source->bytes(), report);
@@ -363,7 +364,7 @@ py::tuple export_source(const SourcePointer& source, const std::string& format, 
     const std::string name = output.filename().string();
     const std::string stem = output.stem().string();
     const std::filesystem::path buffer = format == "gltf" ? stem + ".bin" : "";
-    converter::Report report;
+    converter::Report report(converter::OptionStyle::python);
     py::dict files;
     const auto finish = [&] { return py::make_tuple(files, warnings_of(report)); };
     const bool is_mapped = source->is_mapped();  // so that links to images are relative to the file

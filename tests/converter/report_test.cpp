@@ -26,6 +26,20 @@ TEST(Report, EqualMessagesAreCountedTogetherInTheOrderInWhichTheyFirstCame) {
     EXPECT_EQ(report.warnings()[1].count, 5u);
 }
 
+TEST(Report, OptionsAreNamedAsTheInterfaceWritesThemButNotInAFilesTexts) {
+    constexpr std::string_view kMessage =
+        R"(joint "a --merge-clips \" --b": --merge-clips makes (--root x) -- one--two)";
+    EXPECT_EQ(with_option_names(kMessage, OptionStyle::program), kMessage);
+    EXPECT_EQ(with_option_names(kMessage, OptionStyle::python),
+              R"(joint "a --merge-clips \" --b": merge_clips makes (root x) -- one--two)");
+    EXPECT_EQ(with_option_names("--ticks-per-second", OptionStyle::javascript), "ticksPerSecond");
+    Report report(OptionStyle::javascript);
+    report.warn("no rate; --ticks-per-second sets one");
+    report.suggest("--merge-clips");
+    EXPECT_EQ(report.warnings()[0].message, "no rate; ticksPerSecond sets one");
+    EXPECT_EQ(report.suggestions()[0], "mergeClips");
+}
+
 TEST(Report, AFileIsNotedOnceAsItWasBeforeItWasRead) {
     const std::filesystem::path file = test::test_folder() / "file";
     Report report;

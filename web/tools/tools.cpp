@@ -70,7 +70,9 @@ const char* kind_name(ErrorCode code) {
 
 [[noreturn]] void fail(const converter::ImportError& error) {
     const std::string file = error.file.empty() ? "" : error.file.generic_string() + ": ";
-    throw Failure{"conversion", "CONVERSION", file + cli::describe(error), error.place};
+    throw Failure{"conversion", "CONVERSION",
+                  file + converter::with_option_names(cli::describe(error), converter::OptionStyle::javascript),
+                  error.place};
 }
 
 MappedFile map(const Path& file) {
@@ -153,7 +155,7 @@ Json run_convert(const Json& request, Made& made) {
     options.threads = 1;  // the module has no others
     if (request.value("progress", false)) options.progress = bendy_tell_progress;
     const Path file = text_of(request, "file");
-    converter::Report report;
+    converter::Report report(converter::OptionStyle::javascript);
     const auto bytes = converter::convert(file, options, report);
     if (!bytes) fail(bytes.error());
     made.add("", *bytes);
@@ -304,7 +306,7 @@ Json run_export(const Json& request, Made& made) {
     const std::string format = text_of(request, "format");
     const std::string name = text_of(request, "name");
     const converter::ExportOptions options{vertices_at(file.bytes(), request.value("lod", 1.0f)), {}};
-    converter::Report report;
+    converter::Report report(converter::OptionStyle::javascript);
     if (format == "x") {
         const auto asset = converter::export_x(file.bytes(), name, report, options);
         if (!asset) fail(asset.error());
@@ -352,7 +354,7 @@ Json run_diff(const Json& request, Made& /*made*/) {
     } else {
         const auto bound = converter::parse_error_bound(tolerance);
         if (!bound) refuse("tolerance: " + bound.error());
-        converter::Report report;
+        converter::Report report(converter::OptionStyle::javascript);
         const cli::ComparedCharacter character_a = read_character(a.bytes(), report);
         const cli::ComparedCharacter character_b = read_character(b.bytes(), report);
         const auto comparison = cli::compare_characters(character_a, character_b, *bound);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -75,10 +76,21 @@ struct Warning {
     std::uint64_t count = 1;  ///< how many times
 };
 
+/// How an interface writes an option's name: `--merge-clips`, `merge_clips`, `mergeClips`.
+enum class OptionStyle : std::uint8_t { program, python, javascript };
+
+/// A message of the converter, which names options as the program does, with them as the interface writes them. Texts
+/// in double quotes, which are a file's, stay.
+std::string with_option_names(std::string_view message, OptionStyle style);
+
 /// Gathers warnings during a conversion; equal messages are counted together, in the order in which they first came.
 /// And what was proposed, which files were read, and which of them are in the result.
 class Report {
 public:
+    Report() = default;
+    /// \param style  in which messages name options
+    explicit Report(OptionStyle style) : style_(style) {}
+
     void warn(std::string message, std::string place = {}, std::uint64_t count = 1);
     [[nodiscard]] const std::vector<Warning>& warnings() const { return warnings_; }
 
@@ -87,7 +99,7 @@ public:
     [[nodiscard]] const std::vector<std::string>& proposals() const { return proposals_; }
 
     /// Notes what the user may want to do another time: one line, with the option that does it.
-    void suggest(std::string line) { suggestions_.push_back(std::move(line)); }
+    void suggest(std::string_view line) { suggestions_.push_back(with_option_names(line, style_)); }
     [[nodiscard]] const std::vector<std::string>& suggestions() const { return suggestions_; }
 
     /// Notes that a file is about to be read; once for each.
@@ -102,6 +114,7 @@ public:
     std::optional<CompactReport> compact;
 
 private:
+    OptionStyle style_ = OptionStyle::program;
     std::vector<Warning> warnings_;
     std::vector<std::string> proposals_;
     std::vector<std::string> suggestions_;
