@@ -352,8 +352,8 @@ def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, s
     be read if the source names them; else only those in the source's own folder and below it are. scene: of a glTF file, its name or
     number. texture: the image of a Quake II model's skin. name: of a source that is bytes, in front the folder of the files that it
     refers to; without one, only root counts. jobs: the threads that make a compact file, at most; 0: one for each processor.
-    progress: is called with the share that is done, 0 to 1, while a compact file is made; what it raises, or a KeyboardInterrupt,
-    ends the conversion there.
+    progress: is called with the share that is done, 0 to 1, when the source is read, and while vertices are collapsed (lod) and a
+    compact file is made; what it raises, or a KeyboardInterrupt, ends the conversion there.
     Raises ConversionError with the place in the source, FileNotFoundError, FileExistsError unless overwrite, ValueError.
     """
     if images not in ("embed", "link"):

@@ -333,13 +333,25 @@ def test_text_form(mannequin, compact, program):
         bendy.assemble("{")
 
 
-def test_progress():
+@pytest.mark.parametrize("options", [{"compact": True}, {"lod": True}, {"compact": True, "lod": True}])
+def test_progress(options):
     shares = []
-    made = bendy.convert(ROOT / "examples/mannequin.glb", compact=True, progress=shares.append)
-    assert shares and shares == sorted(shares) and 0 <= shares[0] and shares[-1] <= 1
-    assert bytes(made.data) == bytes(bendy.convert(ROOT / "examples/mannequin.glb", compact=True, jobs=1).data)
+    made = bendy.convert(ROOT / "examples/mannequin.glb", progress=shares.append, **options)
+    assert len(shares) > 10 and shares == sorted(shares) and 0 <= shares[0] and shares[-1] <= 1
+    assert bytes(made.data) == bytes(bendy.convert(ROOT / "examples/mannequin.glb", jobs=1, **options).data)
+
+    def stop(share):
+        if share > 0.1:
+            raise LookupError(share)
+
+    with pytest.raises(LookupError):
+        bendy.convert(ROOT / "examples/mannequin.glb", progress=stop, **options)
 
 
+def test_messages_name_options_as_python_does():
+    gltf = b'{"asset": {"version": "2.0"}, "extensionsRequired": ["EXT_mesh_gpu_instancing"]}'
+    with pytest.raises(bendy.ConversionError, match=r"unless instances are made \(instances\)"):
+        bendy.convert(gltf)
 
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_a_conversion_is_stopped(jobs):

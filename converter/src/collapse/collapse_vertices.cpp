@@ -93,9 +93,10 @@ public:
           is_queued_(surface_.points(), false),
           is_gone_(surface_.points(), false) {}
 
-    Sequence run() {
+    Sequence run(const Progress& progress) {
         remove_unused();
         for (std::uint32_t point = 0; point < surface_.points(); ++point) reconsider(point);
+        std::size_t told = 0;
         while (!queue_.empty()) {
             const Entry entry = queue_.top();
             queue_.pop();
@@ -111,6 +112,11 @@ public:
                 }
             }
             collapse(point, target_[point]);
+            constexpr std::size_t kSeldom = 256;
+            if (progress && sequence_.moves.size() >= told + kSeldom) {
+                told = sequence_.moves.size();
+                progress(std::min(1.0, static_cast<double>(told) / static_cast<double>(surface_.is_used.size())));
+            }
         }
         return std::move(sequence_);
     }
@@ -395,9 +401,9 @@ private:
 };
 
 /// The collapse sequence of a mesh. \param shapes as find_shapes has them \param surface of this mesh; used up
-Sequence find_sequence(const Mesh& mesh, std::span<const Shape> shapes, Surface surface) {
+Sequence find_sequence(const Mesh& mesh, std::span<const Shape> shapes, Surface surface, const Progress& progress) {
     if (surface.triangles.empty()) return {};
-    return Simplifier(mesh, shapes, std::move(surface)).run();
+    return Simplifier(mesh, shapes, std::move(surface)).run(progress);
 }
 
 constexpr std::size_t kMostLevels = 32;
@@ -467,7 +473,7 @@ void order_vertices(Mesh& mesh, const Sequence& sequence) {
 
 }  // namespace
 
-void collapse_vertices(Scene& scene) {
+void collapse_vertices(Scene& scene, const Progress& progress) {
     const std::vector<std::vector<Shape>> shapes = find_shapes(scene);
     std::vector<Surface> surfaces;
     surfaces.reserve(scene.meshes.size());
@@ -479,10 +485,16 @@ void collapse_vertices(Scene& scene) {
         }
     }
     lock_shared_borders(shapes, surfaces);
+    double all = 1.0;
+    for (const Mesh& mesh : scene.meshes) all += static_cast<double>(mesh.positions.size());
+    double done = 0.0;
     std::vector<Sequence> sequences;
     sequences.reserve(surfaces.size());
     for (std::size_t mesh = 0; mesh < surfaces.size(); ++mesh) {
-        sequences.push_back(find_sequence(scene.meshes[mesh], shapes[mesh], std::move(surfaces[mesh])));
+        const double vertices = static_cast<double>(scene.meshes[mesh].positions.size());
+        sequences.push_back(find_sequence(scene.meshes[mesh], shapes[mesh], std::move(surfaces[mesh]),
+                                          part_of(progress, done / all, (done + vertices) / all)));
+        done += vertices;
     }
     for (std::size_t mesh = 0; mesh < sequences.size(); ++mesh) order_vertices(scene.meshes[mesh], sequences[mesh]);
     scene.levels = make_levels(scene.meshes, sequences);

@@ -6,6 +6,7 @@
 #include "evaluate.h"
 #include "frame_shapes.h"
 #include "measure_error.h"
+#include "progress.h"
 #include "sample_limits.h"
 
 #include <bendy/converter/build_chunks.h>
@@ -117,12 +118,6 @@ namespace {
 // at one time, so their sum may be above 1: the measurement decides.
 constexpr double kGeometryShare = 0.35;
 constexpr double kClipShare = 0.9;
-
-/// Part of a longer work.
-std::function<void(double)> part_of(const std::function<void(double)>& progress, double from, double to) {
-    if (!progress) return {};
-    return [=](double done) { progress(from + done * (to - from)); };
-}
 
 /// What measure_clips finds in the file's bytes; infinite if they cannot be read.
 std::vector<MeasuredError> measure(const Scene& exact, const CompactGeometry& geometry, Bytes bytes,

@@ -4,6 +4,7 @@
 #include "compact/quantise_clip.h"
 #include "frame_shapes.h"
 #include "in_parallel.h"
+#include "progress.h"
 #include "sample_limits.h"
 
 #include <bendy/format/codec.h>
@@ -97,8 +98,6 @@ std::optional<Packed> pack_frames(SourceMotion& source, const GridTracks& tracks
     }
     return std::nullopt;
 }
-
-using Progress = std::function<void(double)>;
 
 /// Takes fewer and fewer frames while that makes the clip smaller: it does where motion is smooth and long.
 void pack_thinner(SourceMotion& source, const GridTracks& tracks, const std::vector<bool>& is_replaced,

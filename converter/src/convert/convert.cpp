@@ -7,6 +7,7 @@
 #include "passes/auto_skin.h"
 #include "passes/merge_clips.h"
 #include "passes/mesh_order.h"
+#include "progress.h"
 #include "rig/attach_rig.h"
 #include "rig/clips.h"
 #include "rig/parse_rig.h"
@@ -145,10 +146,13 @@ Result<Buffer, ImportError> convert_any(std::optional<Buffer> source, const std:
         if (options.auto_skin) {
             if (auto bound = auto_skin(*scene, options.skeleton, report); !bound) return bound.error();
         }
-        if (options.lod) collapse_vertices(*scene);
+        constexpr double kLodDone = 0.4;  // of the work, where both are asked for
+        if (options.progress) options.progress(0.0);
+        if (options.lod) collapse_vertices(*scene, part_of(options.progress, 0.0, options.compact ? kLodDone : 1.0));
+        const Progress compact_progress = part_of(options.progress, options.lod ? kLodDone : 0.0, 1.0);
         if (options.sort_vertices && !options.lod && !options.compact)
             std::for_each(scene->meshes.begin(), scene->meshes.end(), sort_by_bones);
-        Buffer bytes = options.compact ? build_compact(*scene, {*options.compact, options.progress, options.threads},
+        Buffer bytes = options.compact ? build_compact(*scene, {*options.compact, compact_progress, options.threads},
                                                        kGenerator, report)
                                        : build_chunks(*std::move(scene), kGenerator, report);
         // The importer has checked the source; this checks the importer, before anything is written.
