@@ -41,17 +41,15 @@ Range reflected(const Range& range) {
     return {-range.high, -range.low};
 }
 
-Ranges reflected(const Ranges& left) {
-    return {reflected(left.x), left.y, reflected(left.z)};
-}
-
 Range divided(const Range& range, double by) {
     return {range.low / by, range.high / by};
 }
 
-Ranges divided(const Ranges& ranges, std::size_t by) {
-    const auto n = static_cast<double>(by);
-    return {divided(ranges.x, n), divided(ranges.y, n), divided(ranges.z, n)};
+/// As far as clips may widen a range: what they do beyond is a slip, or no body's.
+Ranges widened(const Ranges& ranges) {
+    constexpr double kMore = 30.0;  // degrees
+    const auto wider = [](const Range& range) { return Range{range.low - kMore, range.high + kMore}; };
+    return {wider(ranges.x), wider(ranges.y), wider(ranges.z)};
 }
 
 /// The rotation by the shortest way, as axis times angle in degrees.
@@ -62,27 +60,22 @@ glm::dvec3 swing_between(glm::dvec3 from, glm::dvec3 to) {
     return axis * (trig::atan2(sine, glm::dot(from, to)) / trig::kDegree / sine);
 }
 
-class Anatomist {
+class HumanAnatomy {
 public:
-    Anatomist(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found, const Stance& stance)
-        : scene_(scene), rest_(rest), found_(found), bones_(found.bones), stance_(stance) {}
+    HumanAnatomy(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found, const Stance& stance)
+        : scene_(scene), rest_(rest), found_(found), bones_(found.bones), stance_(stance), joints_(rest, stance) {}
 
     std::vector<JointAnatomy> find() {
         find_trunk();
         find_limbs(false);
         find_limbs(true);
-        return std::move(joints_);
+        return joints_.take();
     }
 
 private:
-    [[nodiscard]] static HumanBone of_side(HumanBone left, bool right) { return right ? mirrored(left) : left; }
-    [[nodiscard]] static Ranges of_side(const Ranges& left, bool right) { return right ? reflected(left) : left; }
-    [[nodiscard]] static Ranges bend_of_side(const Ranges& left, bool right) {
-        return right ? Ranges{reflected(left.x), reflected(left.y), left.z} : left;
-    }
-
     void find_limbs(bool right) {
-        const auto joint = [&](HumanBone left) { return bones_[of_side(left, right)]; };
+        const auto joint = [&](HumanBone left) { return bones_[right ? mirrored(left) : left]; };
+        const auto along = [&](std::uint32_t from, std::uint32_t to) { return joints_.along(from, to); };
         const std::uint32_t shoulder = joint(HumanBone::left_shoulder);
         const std::uint32_t upper_arm = joint(HumanBone::left_upper_arm);
         const std::uint32_t lower_arm = joint(HumanBone::left_lower_arm);
@@ -92,34 +85,28 @@ private:
         const std::uint32_t foot = joint(HumanBone::left_foot);
         const std::uint32_t toes = joint(HumanBone::left_toes);
         const glm::dvec3 outward = right ? -stance_.left : stance_.left;
-        is_right_ = right;
+        joints_.set_side(right);
 
-        add_swing(shoulder, HumanJoint::collarbone, along(shoulder, upper_arm), stance_.forward,
-                  of_side(kShoulder, right));
-        add_swing(upper_arm, HumanJoint::shoulder, along(upper_arm, lower_arm), stance_.forward,
-                  of_side(kUpperArm, right), outward);
-        add_bend(upper_arm, lower_arm, HumanJoint::elbow,
-                 end_of(found_, rest_, right ? Limb::right_arm : Limb::left_arm), stance_.forward,
-                 bend_of_side(kForearm, right));
+        joints_.add_swing(shoulder, BodyJoint::collarbone, along(shoulder, upper_arm), stance_.forward, kShoulder);
+        joints_.add_swing(upper_arm, BodyJoint::shoulder, along(upper_arm, lower_arm), stance_.forward, kUpperArm,
+                          outward);
+        joints_.add_bend(upper_arm, lower_arm, BodyJoint::elbow,
+                         end_of(found_, rest_, right ? Limb::right_arm : Limb::left_arm), stance_.forward, kForearm);
         if (!found_.has_split_hands) {
             const auto to_thumb = along(hand, joint(HumanBone::left_thumb));
-            add_swing(hand, HumanJoint::wrist, along(lower_arm, hand), to_thumb ? *to_thumb : stance_.forward,
-                      of_side(kHand, right));
+            joints_.add_swing(hand, BodyJoint::wrist, along(lower_arm, hand), to_thumb ? *to_thumb : stance_.forward,
+                              kHand);
         }
-        add_swing(upper_leg, HumanJoint::hip, along(upper_leg, lower_leg), stance_.forward, of_side(kUpperLeg, right),
-                  -stance_.up);
-        add_bend(upper_leg, lower_leg, HumanJoint::knee,
-                 end_of(found_, rest_, right ? Limb::right_leg : Limb::left_leg), -stance_.forward,
-                 bend_of_side(kShin, right));
+        joints_.add_swing(upper_leg, BodyJoint::hip, along(upper_leg, lower_leg), stance_.forward, kUpperLeg,
+                          -stance_.up);
+        joints_.add_bend(upper_leg, lower_leg, BodyJoint::knee,
+                         end_of(found_, rest_, right ? Limb::right_leg : Limb::left_leg), -stance_.forward, kShin);
         const auto to_toes = along(foot, toes);
-        add_swing(foot, HumanJoint::ankle, to_toes ? *to_toes : stance_.forward, stance_.up, of_side(kFoot, right));
-        add(toes, HumanJoint::toes,
-            glm::dmat3(stance_.forward, glm::cross(stance_.left, stance_.forward), stance_.left),
-            bend_of_side(kToes, right), {});
+        joints_.add_swing(foot, BodyJoint::ankle, to_toes ? *to_toes : stance_.forward, stance_.up, kFoot);
+        joints_.add_toes(toes, kToes);
     }
 
     void find_trunk() {
-        is_right_ = false;
         const std::uint32_t spine = bones_[HumanBone::spine];
         const std::uint32_t neck = bones_[HumanBone::neck];
         const std::uint32_t head = bones_[HumanBone::head];
@@ -128,68 +115,10 @@ private:
         if (spine != kNone) {
             std::vector<std::uint32_t> path = path_of(scene_, spine, first_of_neck);
             if (!path.empty()) path.pop_back();
-            add_column(path, first_of_neck, HumanJoint::spine, divided(kSpine, path.size()));
+            joints_.add_column(path, first_of_neck, BodyJoint::spine, kSpine, stance_.up, stance_.forward);
         }
-        const std::vector<std::uint32_t> path = path_of(scene_, first_of_neck, head);
-        add_column(path, kNone, HumanJoint::neck, divided(kNeck, path.size()));
-    }
-
-    /// Joints above one another; `next` follows the last one.
-    void add_column(const std::vector<std::uint32_t>& joints, std::uint32_t next, HumanJoint part,
-                    const Ranges& ranges) {
-        for (std::size_t i = 0; i < joints.size(); ++i) {
-            const auto direction = along(joints[i], i + 1 < joints.size() ? joints[i + 1] : next);
-            add_swing(joints[i], part, direction ? *direction : stance_.up, stance_.forward, ranges);
-            if (joints.size() > 1 && !joints_.empty() && joints_.back().joint == joints[i])
-                joints_.back().number = static_cast<std::uint8_t>(std::min<std::size_t>(i + 1, 255));
-        }
-    }
-
-    [[nodiscard]] std::optional<glm::dvec3> along(std::uint32_t from, std::uint32_t to) const {
-        return from == kNone || to == kNone ? std::nullopt : rest_.direction(from, to);
-    }
-
-    /// Swing and twist with X along the bone and Z as near `z` as may be. Where a `neutral` direction is given the
-    /// ranges are about the bone pointing there.
-    void add_swing(std::uint32_t joint, HumanJoint part, std::optional<glm::dvec3> x, glm::dvec3 z,
-                   const Ranges& ranges, std::optional<glm::dvec3> neutral = std::nullopt) {
-        if (joint == kNone || !x) return;
-        const std::optional<glm::dvec3> across = unit_across(z, *x);
-        if (!across) return;
-        const glm::dmat3 axes(*x, glm::cross(*across, *x), *across);
-        const glm::dvec3 swing = neutral ? swing_between(*neutral, *x) : glm::dvec3(0.0);
-        add(joint, part, axes, ranges, {0.0, glm::dot(swing, axes[1]), glm::dot(swing, axes[2])});
-    }
-
-    /// The bend between two bones of a limb. At rest it is bent by some angle already.
-    void add_bend(std::uint32_t upper, std::uint32_t lower, HumanJoint part, std::optional<glm::dvec3> end,
-                  glm::dvec3 towards, const Ranges& ranges) {
-        if (lower == kNone || !end) return;
-        const auto first = along(upper, lower);
-        const auto second = unit(*end - rest_.position(lower));
-        if (!first || !second) return;
-        const auto side = unit_across(towards, *first);
-        if (!side) return;
-        glm::dvec3 axis = glm::cross(*first, *side);
-        const glm::dvec3 bend = swing_between(*first, *second);
-        const double angle = glm::length(bend);
-        // A limb that is clearly bent shows its axis. One that is bent elsewhere, or by that much to the wrong side, is
-        // no human's.
-        const bool is_elsewhere = angle > kStrange && glm::dot(bend / angle, axis) < 0.5;
-        if (angle > kStrange && !is_elsewhere) axis = bend / angle;
-        const auto z = unit_across(axis, *second);
-        if (!z) return;
-        const glm::dmat3 axes(*second, glm::cross(*z, *second), *z);
-        add(lower, part, axes, ranges, glm::transpose(axes) * bend);
-        if (!joints_.empty() && joints_.back().joint == lower && is_elsewhere) joints_.back().is_strange = true;
-    }
-
-    void add(std::uint32_t joint, HumanJoint part, const glm::dmat3& axes, const Ranges& ranges,
-             const glm::dvec3& rest) {
-        if (joint == kNone || !rest_.turning_axes(joint)) return;
-        const bool is_strange =
-            outside(ranges.z, rest.z) > kStrange || (!bends(part) && outside(ranges.y, rest.y) > kStrange);
-        joints_.push_back({joint, part, is_right_, 0, axes, ranges, rest, is_strange});
+        joints_.add_column(path_of(scene_, first_of_neck, head), kNone, BodyJoint::neck, kNeck, stance_.up,
+                           stance_.forward);
     }
 
     const Scene& scene_;
@@ -197,22 +126,99 @@ private:
     const NamedHumanoid& found_;
     const Humanoid& bones_;
     const Stance& stance_;
-    bool is_right_ = false;
-    std::vector<JointAnatomy> joints_;
+    AnatomyBuilder joints_;
 };
 
 }  // namespace
 
-std::vector<JointAnatomy> find_anatomy(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found,
-                                       const Stance& stance) {
-    return Anatomist(scene, rest, found, stance).find();
+std::optional<glm::dvec3> AnatomyBuilder::along(std::uint32_t from, std::uint32_t to) const {
+    return from == kNone || to == kNone ? std::nullopt : rest_.direction(from, to);
 }
 
-Ranges ranges_from_rest(const Ranges& human, const glm::dvec3& rest) {
+void AnatomyBuilder::add_column(const std::vector<std::uint32_t>& joints, std::uint32_t next, BodyJoint part,
+                                const Ranges& together, const glm::dvec3& straight, const glm::dvec3& z) {
+    is_right_ = false;
+    const auto count = static_cast<double>(joints.size());
+    const Ranges each{divided(together.x, count), divided(together.y, count), divided(together.z, count)};
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        const auto direction = along(joints[i], i + 1 < joints.size() ? joints[i + 1] : next);
+        const std::size_t added = joints_.size();
+        add_swing(joints[i], part, direction ? *direction : straight, z, each, std::nullopt,
+                  joints.size() > 1 ? i + 1 : 0);
+        if (joints_.size() > added) joints_.back().widest = widened(together);
+    }
+}
+
+void AnatomyBuilder::add_swing(std::uint32_t joint, BodyJoint part, std::optional<glm::dvec3> x, glm::dvec3 z,
+                               const Ranges& typical, std::optional<glm::dvec3> neutral, std::size_t number) {
+    if (joint == kNone || !x) return;
+    const std::optional<glm::dvec3> across = unit_across(z, *x);
+    if (!across) return;
+    const glm::dmat3 axes(*x, glm::cross(*across, *x), *across);
+    const glm::dvec3 swing = neutral ? swing_between(*neutral, *x) : glm::dvec3(0.0);
+    const Ranges ranges = is_right_ ? Ranges{reflected(typical.x), typical.y, reflected(typical.z)} : typical;
+    add(joint, part, axes, ranges, {0.0, glm::dot(swing, axes[1]), glm::dot(swing, axes[2])}, number);
+}
+
+void AnatomyBuilder::add_bend(std::uint32_t upper, std::uint32_t lower, BodyJoint part, std::optional<glm::dvec3> end,
+                              glm::dvec3 towards, const Ranges& typical, std::size_t number) {
+    if (lower == kNone || !end) return;
+    const auto first = along(upper, lower);
+    const auto second = unit(*end - rest_.position(lower));
+    if (!first || !second) return;
+    const auto side = unit_across(towards, *first);
+    if (!side) return;
+    glm::dvec3 axis = glm::cross(*first, *side);
+    const glm::dvec3 bend = *bend_between(upper, lower, *end);
+    const double angle = glm::length(bend);
+    // A limb that is clearly bent shows its axis. One that is bent elsewhere, or by that much to the wrong side, is not
+    // of the kind.
+    const bool is_elsewhere = angle > kStrange && glm::dot(bend / angle, axis) < 0.5;
+    if (angle > kStrange && !is_elsewhere) axis = bend / angle;
+    const auto z = unit_across(axis, *second);
+    if (!z) return;
+    const glm::dmat3 axes(*second, glm::cross(*z, *second), *z);
+    const std::size_t added = joints_.size();
+    add(lower, part, axes, bend_of_side(typical), glm::transpose(axes) * bend, number);
+    if (joints_.size() > added && is_elsewhere) joints_.back().is_strange = true;
+}
+
+std::optional<glm::dvec3> AnatomyBuilder::bend_between(std::uint32_t upper, std::uint32_t lower,
+                                                       const glm::dvec3& end) const {
+    const auto first = along(upper, lower);
+    const auto second = unit(end - rest_.position(lower));
+    return first && second ? std::optional(swing_between(*first, *second)) : std::nullopt;
+}
+
+void AnatomyBuilder::add_toes(std::uint32_t joint, const Ranges& typical) {
+    if (joint == kNone) return;
+    add(joint, BodyJoint::toes, glm::dmat3(stance_.forward, -stance_.up, stance_.left), bend_of_side(typical),
+        glm::dvec3(0.0), 0);
+}
+
+Ranges AnatomyBuilder::bend_of_side(const Ranges& left) const {
+    return is_right_ ? Ranges{reflected(left.x), reflected(left.y), left.z} : left;
+}
+
+void AnatomyBuilder::add(std::uint32_t joint, BodyJoint part, const glm::dmat3& axes, const Ranges& typical,
+                         const glm::dvec3& rest, std::size_t number) {
+    if (!rest_.turning_axes(joint)) return;
+    const bool is_strange =
+        outside(typical.z, rest.z) > kStrange || (!bends(part) && outside(typical.y, rest.y) > kStrange);
+    joints_.push_back({joint, part, is_right_, static_cast<std::uint8_t>(std::min<std::size_t>(number, 255)), axes,
+                       typical, widened(typical), rest, is_strange});
+}
+
+std::vector<JointAnatomy> find_anatomy(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found,
+                                       const Stance& stance) {
+    return HumanAnatomy(scene, rest, found, stance).find();
+}
+
+Ranges ranges_from_rest(const Ranges& ranges, const glm::dvec3& rest) {
     const auto moved = [](const Range& range, double zero) {
         return Range{std::min(range.low - zero, 0.0), std::max(range.high - zero, 0.0)};
     };
-    return {moved(human.x, rest.x), moved(human.y, rest.y), moved(human.z, rest.z)};
+    return {moved(ranges.x, rest.x), moved(ranges.y, rest.y), moved(ranges.z, rest.z)};
 }
 
 double outside(const Range& range, double rest) {

@@ -5,6 +5,7 @@
 #include "find_humanoid.h"
 #include "humanoid.h"
 #include "limb_chains.h"
+#include "quadruped.h"
 #include "rest_frames.h"
 
 #include <bendy/format/trig.h>
@@ -59,12 +60,15 @@ std::string clips_of(std::uint32_t clips) {
 }
 
 std::string part_of(const JointAnatomy& anatomy) {
-    constexpr std::array<const char*, 10> kWords{"collarbone", "shoulder", "elbow", "wrist", "hip",
-                                                 "knee",       "ankle",    "toes",  "spine", "neck"};
+    constexpr std::array<const char*, 15> kWords{
+        "collarbone", "shoulder",  "elbow",    "wrist",           "hip",
+        "knee",       "ankle",     "toes",     "spine",           "neck",
+        "tail",       "front leg", "hind leg", "front leg joint", "hind leg joint"};
     std::string words = kWords.at(static_cast<std::size_t>(anatomy.part));
-    if (anatomy.part == HumanJoint::spine || anatomy.part == HumanJoint::neck)
-        return anatomy.number == 0 ? words : words + ' ' + std::to_string(anatomy.number);
-    return (anatomy.is_right ? "right " : "left ") + words;
+    const bool is_in_middle =
+        anatomy.part == BodyJoint::spine || anatomy.part == BodyJoint::neck || anatomy.part == BodyJoint::tail;
+    if (!is_in_middle) words.insert(0, anatomy.is_right ? "right " : "left ");
+    return anatomy.number == 0 ? words : words + ' ' + std::to_string(anatomy.number);
 }
 
 std::string way_of(const glm::dvec3& way, const Stance& stance) {
@@ -119,7 +123,8 @@ std::string line_of(const Scene& scene, const Chain& chain, const std::optional<
     return bend->clips == 0 ? line : line + " as in " + clips_of(bend->clips);
 }
 
-std::string line_of(const Scene& scene, const ProposedConstraint& proposed) {
+/// \param whose  the typical ranges are, as `a human's`
+std::string line_of(const Scene& scene, const ProposedConstraint& proposed, const std::string& whose) {
     const ConstraintRecord& constraint = proposed.constraint;
     std::string line = part_of(proposed.anatomy) + ", " + name_of(scene, proposed.anatomy.joint) + ": ";
     const auto model = static_cast<ConstraintModel>(constraint.model);
@@ -134,11 +139,11 @@ std::string line_of(const Scene& scene, const ProposedConstraint& proposed) {
     }
     if (proposed.is_axis_fitted) {
         line += ", axis fitted to " + clips_of(proposed.clips) + ", " + decimals(proposed.axis_off, 1) +
-                " degrees off a human's";
+                " degrees off " + whose;
     }
     if (proposed.growth > 0.05 && proposed.clips > 0) {
-        line += ", up to " + std::to_string(std::lround(std::ceil(proposed.growth))) +
-                " degrees wider than a human's for " + clips_of(proposed.clips);
+        line += ", up to " + std::to_string(std::lround(std::ceil(proposed.growth))) + " degrees wider than " + whose +
+                " for " + clips_of(proposed.clips);
     }
     return line;
 }
@@ -180,8 +185,8 @@ void complete(const Scene& scene, const RestFrames& rest, const ClipRotations& c
 }
 
 NamedHumanoid find(const Scene& scene, const RestFrames& rest, const ClipRotations& clips) {
-    Report said_before;  // when the extension's own chains were made
-    if (const std::optional<VrmHumanoid> vrm = read_vrm_humanoid(scene, said_before)) {
+    Report unheard;  // said when the extension's own chains were made
+    if (const std::optional<VrmHumanoid> vrm = read_vrm_humanoid(scene, unheard)) {
         NamedHumanoid found;
         found.bones = vrm->bones;
         return found;
@@ -387,27 +392,46 @@ private:
     std::array<std::optional<ProposedBend>, kLimbs> bends_;
 };
 
-}  // namespace
+/// Adds the limits of joints that have none. \param whose  as of line_of
+void add_limits(Scene& scene, const RestFrames& rest, const ClipRotations& clips,
+                const std::vector<JointAnatomy>& anatomy, const glm::dvec3& left, const std::string& whose,
+                const std::vector<bool>& claimed, Report& report) {
+    for (const ProposedConstraint& proposed : fit_to_clips(scene, rest, clips, anatomy, left, report)) {
+        Joint& joint = scene.joints[proposed.anatomy.joint];
+        if (!joint.constraints.empty() || (!claimed.empty() && claimed[proposed.anatomy.joint])) continue;
+        joint.constraints.push_back(proposed.constraint);
+        report.propose(line_of(scene, proposed, whose));
+        if (proposed.beyond > 0.5) {
+            report.warn("auto-rig: clips turn the joint by up to " + std::to_string(std::lround(proposed.beyond)) +
+                            " degrees more than such a joint can do, and leave its proposed limit",
+                        name_of(scene, proposed.anatomy.joint));
+        }
+    }
+}
 
-void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report) {
-    const RestFrames rest(scene);
-    const ClipRotations clips(scene);
+void rig_quadruped(Scene& scene, const RestFrames& rest, const ClipRotations& clips, const Quadruped& animal,
+                   const std::vector<bool>& claimed, Report& report) {
+    for (const std::size_t chain : add_new_chains(scene, make_quadruped_chains(scene, rest, animal, kProposed)))
+        report.propose(line_of(scene, scene.chains[chain], std::nullopt, animal.stance));
+    add_limits(scene, rest, clips, find_anatomy(rest, animal), animal.stance.left, "an animal's", claimed, report);
+}
+
+void rig_human(Scene& scene, const RestFrames& rest, const ClipRotations& clips, const std::vector<bool>& claimed,
+               Report& report) {
     const NamedHumanoid found = find(scene, rest, clips);
     const std::optional<Posture> posture = Measurer(rest, found).measure();
     if (!posture) {
         return report.warn(
-            "auto-rig: neither the joints' names nor the skeleton's shape say where a human's limbs are, nothing "
-            "proposed");
+            "auto-rig: neither the joints' names nor the skeleton's shape say where the limbs of a human or of an "
+            "animal on four legs are, nothing proposed");
     }
     const Stance& stance = posture->stance;
     if (!Measurer(rest, found).has_feet_forward(stance))
         return report.warn("auto-rig: the feet point backward from what left and right say, nothing proposed");
-
     if (found.contradicts_names) {
         report.warn(
             "auto-rig: left and right in the joints' names contradict the way that feet and knees point, left and "
-            "right "
-            "below are the character's own");
+            "right below are the character's own");
     }
     Report unheard;  // of limbs that are not there
     std::vector<Chain> chains = make_limb_chains(scene, rest, found.bones, stance, kProposed, {}, unheard);
@@ -416,16 +440,26 @@ void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report) {
     for (Chain& chain : chains) bends.turn_pole(chain);
     for (const std::size_t chain : add_new_chains(scene, std::move(chains)))
         report.propose(line_of(scene, scene.chains[chain], bends.of(scene.chains[chain]), stance));
-
     if (!posture->is_upright)
         return report.warn("auto-rig: the spine does not go up from the legs as a human's, no limits proposed");
-    const std::vector<JointAnatomy> anatomy = find_anatomy(scene, rest, found, stance);
-    for (const ProposedConstraint& proposed : fit_to_clips(scene, rest, clips, anatomy, stance.left, report)) {
-        Joint& joint = scene.joints[proposed.anatomy.joint];
-        if (!joint.constraints.empty() || (!claimed.empty() && claimed[proposed.anatomy.joint])) continue;
-        joint.constraints.push_back(proposed.constraint);
-        report.propose(line_of(scene, proposed));
+    add_limits(scene, rest, clips, find_anatomy(scene, rest, found, stance), stance.left, "a human's", claimed, report);
+}
+
+bool has_vrm_humanoid(const Scene& scene) {
+    Report unheard;  // said when the extension's own chains were made
+    return read_vrm_humanoid(scene, unheard).has_value();
+}
+
+}  // namespace
+
+void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report) {
+    const RestFrames rest(scene);
+    const ClipRotations clips(scene);
+    if (!has_vrm_humanoid(scene)) {
+        if (const std::optional<Quadruped> animal = find_quadruped(scene, rest, find_bound_joints(scene)))
+            return rig_quadruped(scene, rest, clips, *animal, claimed, report);
     }
+    rig_human(scene, rest, clips, claimed, report);
 }
 
 void add_vrm_chains(Scene& scene, Report& report) {

@@ -52,19 +52,6 @@ std::vector<bool> find_moving_joints(const Scene& scene) {
     return moves;
 }
 
-}  // namespace
-
-std::vector<std::vector<std::uint32_t>> list_children(const Scene& scene, const std::vector<bool>& chosen) {
-    std::vector<std::vector<std::uint32_t>> children(scene.joints.size());
-    for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
-        const std::uint32_t parent = scene.joints[joint].parent;
-        if (chosen[joint] && parent != kNone) children[parent].push_back(joint);
-    }
-    return children;
-}
-
-namespace {
-
 /// Calls `visit` with each vertex that the joint moves, in the joint's space.
 template <class Visit>
 void visit_vertices(const Scene& scene, std::uint32_t joint, Visit visit) {

@@ -19,9 +19,6 @@ namespace bendy::converter {
 /// By joint: whether a mesh is bound to it, or to one below it. All where no mesh is bound.
 std::vector<bool> find_bound_joints(const Scene& scene);
 
-/// By joint: its children among those of `chosen`, in the joints' order.
-std::vector<std::vector<std::uint32_t>> list_children(const Scene& scene, const std::vector<bool>& chosen);
-
 /// The limbs that two bones make, by their place in arrays.
 enum class Limb : std::uint8_t { left_arm, right_arm, left_leg, right_leg };
 inline constexpr std::size_t kLimbs = 4;

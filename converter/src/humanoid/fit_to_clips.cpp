@@ -39,7 +39,7 @@ Range mirrored(const Range& range) {
 struct Member {
     const JointAnatomy* anatomy = nullptr;
     glm::dvec3 rest{0.0};
-    Ranges human;
+    Ranges typical, widest;
     Rotations rotations;  ///< R in the frame of the anatomy's axes
     std::uint32_t clips = 0;
 
@@ -65,7 +65,7 @@ struct BendFit {
     Range x, y;  ///< twist, and sideways; of what is no hinge
 };
 
-/// Turns the axis so that the bend is positive as a human's is, unless the clips bend the joint to the other side.
+/// Turns the axis so that the bend is positive as is usual, unless the clips bend the joint to the other side.
 glm::dvec3 with_sign(glm::dvec3 axis, const Rotations& rotations, const glm::dvec3& rest) {
     constexpr double kClearly = 45.0;  // degrees
     if (axis.z < 0.0) axis = -axis;
@@ -241,7 +241,8 @@ public:
         Member member;
         member.anatomy = &anatomy;
         member.rest = member.to_side(anatomy.rest);
-        member.human = member.to_side(anatomy.human);
+        member.typical = member.to_side(anatomy.typical);
+        member.widest = member.to_side(anatomy.widest);
         const glm::dquat frame = frame_of(anatomy.joint, anatomy.axes);
         ClipRotations::OfJoint turns = clips.of(anatomy.joint);
         member.clips = turns.clips;
@@ -262,7 +263,7 @@ public:
         for (const Member& member : members_) {
             if (member.anatomy->is_strange && !moves) {
                 report.warn(
-                    "auto-rig: the rest pose is outside what a human can do and no clip moves the joint, no limit "
+                    "auto-rig: the rest pose is outside what such a joint can do and no clip moves the joint, no limit "
                     "proposed for it",
                     scene_.joints[member.anatomy->joint].name);
                 continue;
@@ -349,9 +350,9 @@ private:
     void fit_bends(std::vector<ProposedConstraint>& constraints) {
         const std::vector<BendFit> fits = choose_fits();
         // Of both sides together, away from the straight limb.
-        Range bend = members_.front().human.z;
-        Range twist = members_.front().human.x;
-        Range sideways = members_.front().human.y;
+        Range bend = members_.front().typical.z;
+        Range twist = members_.front().typical.x;
+        Range sideways = members_.front().typical.y;
         for (std::size_t i = 0; i < members_.size(); ++i) {
             const Range moved = shifted(fits[i].bend, glm::dot(members_[i].rest, fits[i].axis));
             if (members_[i].clips > 0) bend = united(bend, with_margin(moved, bend));
@@ -367,9 +368,12 @@ private:
             constraint.axis_off = degrees_of(0.5 * glm::length(constraint.axis - constraint.anatomy.axes[2]));
             const double rest_bend = glm::dot(member.rest, fit.axis);
             Range range = shifted(bend, -rest_bend);
-            const Range human = ranges_from_rest(member.human, {0.0, 0.0, rest_bend}).z;
-            constraint.growth = std::max({human.low - range.low, range.high - human.high, 0.0});
-            range = whole({std::min(range.low, 0.0), std::max(range.high, 0.0)}, human);
+            const glm::dvec3 rest(0.0, 0.0, rest_bend);
+            const Range typical = ranges_from_rest(member.typical, rest).z;
+            const Range widest = ranges_from_rest(member.widest, rest).z;
+            range = cut({std::min(range.low, 0.0), std::max(range.high, 0.0)}, widest, constraint);
+            constraint.growth = std::max({typical.low - range.low, range.high - typical.high, 0.0});
+            range = whole(range, typical);
             if (fit.is_hinge) {
                 const glm::dvec3 along = constraint.anatomy.axes[0];
                 const auto z = unit_across(along, constraint.axis);
@@ -379,7 +383,8 @@ private:
             }
             const glm::dmat3 axes(constraint.anatomy.axes[0], glm::cross(constraint.axis, constraint.anatomy.axes[0]),
                                   constraint.axis);
-            const Ranges side = member.to_side(Ranges{twist, sideways, {}});
+            const Ranges side = member.to_side(
+                Ranges{cut(twist, member.widest.x, constraint), cut(sideways, member.widest.y, constraint), {}});
             set(constraint, ConstraintModel::swing_twist_pyramid, axes,
                 {whole(side.x, {}), whole(side.y, {}), {std::max(range.low, -179.0), std::min(range.high, 179.0)}});
             // A straight limb bends to where it bends most readily.
@@ -391,15 +396,15 @@ private:
     // --- all others
 
     void fit_swings(std::vector<ProposedConstraint>& constraints) {
-        // An ellipse, as a human's joints have it, unless the clips make it allow much more than a pyramid would.
+        // An ellipse, as real joints have it, unless the clips make it allow much more than a pyramid would.
         std::vector<Ellipse> ellipses;
         std::vector<Pyramid> pyramids;
         int of_ellipses = 0;
         int of_pyramids = 0;
-        Range twist = members_.front().human.x;
+        Range twist = members_.front().typical.x;
         for (const Member& member : members_) {
             const Rotations& rotations = is_pooled_ ? pooled_ : member.rotations;
-            const Ranges ranges = ranges_from_rest(member.human, member.rest);
+            const Ranges ranges = ranges_from_rest(member.typical, member.rest);
             ellipses.emplace_back(ranges.y, ranges.z).embrace(rotations);
             pyramids.emplace_back(ranges.y, ranges.z).embrace(rotations);
             of_ellipses += count_directions(ellipses.back());
@@ -409,8 +414,16 @@ private:
                 twist = united(twist, with_margin({angle, angle}, twist));
             }
         }
-        const bool is_pyramid = 10 * of_pyramids < 9 * of_ellipses;
-        std::array<Range, 2> swing{members_.front().human.y, members_.front().human.z};
+        // Nor where the ellipse would have to be wider than may be: a pyramid's ranges do not widen one another.
+        bool is_pyramid = 10 * of_pyramids < 9 * of_ellipses;
+        for (std::size_t i = 0; i < members_.size(); ++i) {
+            const Ranges widest = ranges_from_rest(members_[i].widest, members_[i].rest);
+            for (const auto& [axis, most] : {std::pair(0u, widest.y), std::pair(1u, widest.z)}) {
+                const Range range = ellipses[i].range(axis);
+                is_pyramid = is_pyramid || range.low < most.low || range.high > most.high;
+            }
+        }
+        std::array<Range, 2> swing{members_.front().typical.y, members_.front().typical.z};
         for (std::size_t i = 0; i < members_.size(); ++i) {
             for (const std::size_t axis : {0u, 1u}) {
                 const Range range = is_pyramid ? pyramids[i].range(axis) : ellipses[i].range(axis);
@@ -422,23 +435,31 @@ private:
             is_pyramid ? ConstraintModel::swing_twist_pyramid : ConstraintModel::swing_twist_ellipse;
         for (ProposedConstraint& constraint : constraints) {
             const Member& member = member_of(constraint);
-            const Ranges human = ranges_from_rest(member.human, member.rest);
-            Ranges ranges{twist, shifted(swing[0], -member.rest.y), shifted(swing[1], -member.rest.z)};
-            ranges.x = whole(ranges.x, human.x);
-            ranges.y = whole(ranges.y, human.y);
-            ranges.z = whole(ranges.z, human.z);
-            for (const auto& [now, before] :
-                 {std::pair(ranges.x, human.x), std::pair(ranges.y, human.y), std::pair(ranges.z, human.z)})
-                constraint.growth = std::max({constraint.growth, before.low - now.low, now.high - before.high});
+            const Ranges typical = ranges_from_rest(member.typical, member.rest);
+            const Ranges widest = ranges_from_rest(member.widest, member.rest);
+            const auto fitted = [&](const Range& range, const Range& usual, const Range& most) {
+                const Range now = whole(cut(range, most, constraint), usual);
+                constraint.growth = std::max({constraint.growth, usual.low - now.low, now.high - usual.high});
+                return now;
+            };
+            const Ranges ranges{fitted(twist, typical.x, widest.x),
+                                fitted(shifted(swing[0], -member.rest.y), typical.y, widest.y),
+                                fitted(shifted(swing[1], -member.rest.z), typical.z, widest.z)};
             set(constraint, model, constraint.anatomy.axes, member.to_side(ranges));
         }
     }
 
     // --- records
 
-    [[nodiscard]] static Range with_margin(const Range& moved, const Range& human) {
-        return {moved.low < human.low ? moved.low - kMargin : moved.low,
-                moved.high > human.high ? moved.high + kMargin : moved.high};
+    [[nodiscard]] static Range with_margin(const Range& moved, const Range& typical) {
+        return {moved.low < typical.low ? moved.low - kMargin : moved.low,
+                moved.high > typical.high ? moved.high + kMargin : moved.high};
+    }
+
+    /// What of the range is inside the widest one; says in the constraint how much is not.
+    [[nodiscard]] static Range cut(const Range& range, const Range& widest, ProposedConstraint& constraint) {
+        constraint.beyond = std::max({constraint.beyond, widest.low - range.low, range.high - widest.high});
+        return {std::max(range.low, widest.low), std::min(range.high, widest.high)};
     }
 
     /// Ends that have moved go out to whole degrees.

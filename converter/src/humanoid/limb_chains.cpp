@@ -27,16 +27,6 @@ constexpr std::array kNamedLimbs{
     NamedLimb{"RightLeg", HumanBone::right_upper_leg, HumanBone::right_lower_leg, HumanBone::right_foot, 1.0},
 };
 
-Chain make_chain(const char* name, std::uint32_t start, std::uint32_t effector, Solver solver, std::uint8_t flags) {
-    Chain chain;
-    chain.name = name;
-    chain.record.start = start;
-    chain.record.effector = effector;
-    chain.record.solver = static_cast<std::uint8_t>(solver);
-    chain.record.flags = flags;
-    return chain;
-}
-
 /// The direction in which the limb bends, in the space of start's parent; zeros if there is none.
 std::array<float, 3> pole_of(const Scene& scene, const RestFrames& rest, const NamedLimb& limb,
                              const Humanoid& humanoid, const Stance& stance) {
@@ -99,6 +89,16 @@ std::optional<Chain> make_head(const Humanoid& humanoid, const RestFrames& rest,
 }
 
 }  // namespace
+
+Chain make_chain(const char* name, std::uint32_t start, std::uint32_t effector, Solver solver, std::uint8_t flags) {
+    Chain chain;
+    chain.name = name;
+    chain.record.start = start;
+    chain.record.effector = effector;
+    chain.record.solver = static_cast<std::uint8_t>(solver);
+    chain.record.flags = flags;
+    return chain;
+}
 
 std::vector<std::uint32_t> path_of(const Scene& scene, std::uint32_t start, std::uint32_t effector) {
     std::vector<std::uint32_t> path;

@@ -28,6 +28,9 @@ struct Stance {
 std::vector<Chain> make_limb_chains(const Scene& scene, const RestFrames& rest, const Humanoid& humanoid,
                                     const Stance& stance, std::uint8_t flags, const std::string& where, Report& report);
 
+/// A chain without pole and weights.
+Chain make_chain(const char* name, std::uint32_t start, std::uint32_t effector, Solver solver, std::uint8_t flags);
+
 /// Joints from `effector` up to `start`, both included, the start first; empty if the one is not at or below the other.
 std::vector<std::uint32_t> path_of(const Scene& scene, std::uint32_t start, std::uint32_t effector);
 

@@ -1,0 +1,170 @@
+#include "humanoid/auto_rig.h"
+
+#include "humanoid_gltf.h"
+
+#include <bendy/format/constraint.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bendy::converter::quadruped_test {
+namespace {
+
+using namespace test;
+
+/// A dog, metres, looking along +Z: legs of two bones in front and three behind, a tail.
+HumanoidGltf make_dog() {
+    HumanoidGltf dog;
+    dog.bones.clear();
+    dog.add("hips", "", {0, 0.6, -0.4});
+    dog.add("back", "hips", {0, 0.62, -0.15});
+    dog.add("chest", "back", {0, 0.62, 0.1});
+    dog.add("neck", "chest", {0, 0.7, 0.35});
+    dog.add("skull", "neck", {0, 0.85, 0.45});
+    dog.add("jaw", "skull", {0, 0.8, 0.55});
+    dog.add("tail1", "hips", {0, 0.58, -0.5});
+    dog.add("tail2", "tail1", {0, 0.5, -0.6});
+    dog.add("tail3", "tail2", {0, 0.4, -0.7});
+    for (const double side : {1.0, -1.0}) {
+        const std::string s = side > 0 ? "left" : "right";
+        dog.add(s + "Ear", "skull", {side * 0.05, 0.95, 0.42});
+        dog.add(s + "Front1", "chest", {side * 0.1, 0.55, 0.3});
+        dog.add(s + "Front2", s + "Front1", {side * 0.1, 0.3, 0.22});
+        dog.add(s + "Front3", s + "Front2", {side * 0.1, 0.05, 0.26});
+        dog.add(s + "Front4", s + "Front3", {side * 0.1, 0.02, 0.31});
+        dog.add(s + "Hind1", "hips", {side * 0.1, 0.55, -0.4});
+        dog.add(s + "Hind2", s + "Hind1", {side * 0.1, 0.32, -0.3});
+        dog.add(s + "Hind3", s + "Hind2", {side * 0.1, 0.2, -0.47});
+        dog.add(s + "Hind4", s + "Hind3", {side * 0.1, 0.03, -0.43});
+        dog.add(s + "Hind5", s + "Hind4", {side * 0.1, 0.01, -0.38});
+    }
+    return dog;
+}
+
+struct Rigged {
+    Scene scene;
+    Report report;
+
+    /// Names of the joints at the ends of a chain; empty without such a chain.
+    [[nodiscard]] std::pair<std::string, std::string> ends(const std::string& name) const {
+        const Chain* chain = find_chain(scene, name);
+        if (chain == nullptr) return {};
+        return {scene.joints[chain->record.start].name, scene.joints[chain->record.effector].name};
+    }
+    [[nodiscard]] const ConstraintRecord& constraint(const std::string& name) const {
+        static const ConstraintRecord kNothing;
+        const Joint& joint = scene.joints[joint_named(scene, name)];
+        EXPECT_EQ(joint.constraints.size(), 1u) << name;
+        return joint.constraints.empty() ? kNothing : joint.constraints[0];
+    }
+};
+
+Rigged rig(const HumanoidGltf& animal) {
+    Rigged rigged{*animal.build().import(), {}};
+    auto_rig(rigged.scene, {}, rigged.report);
+    return rigged;
+}
+
+using Ends = std::pair<std::string, std::string>;
+
+void expect_chains(const Rigged& rigged) {
+    EXPECT_EQ(rigged.ends("LeftFrontLeg"), Ends("leftFront1", "leftFront3"));
+    EXPECT_EQ(rigged.ends("RightFrontLeg"), Ends("rightFront1", "rightFront3"));
+    EXPECT_EQ(rigged.ends("LeftHindLeg"), Ends("leftHind1", "leftHind4"));
+    EXPECT_EQ(rigged.ends("RightHindLeg"), Ends("rightHind1", "rightHind4"));
+    EXPECT_EQ(rigged.ends("Spine"), Ends("back", "neck"));
+    EXPECT_EQ(rigged.ends("Neck"), Ends("neck", "skull"));
+    EXPECT_EQ(rigged.ends("Tail"), Ends("tail1", "tail3"));
+    EXPECT_EQ(rigged.scene.chains.size(), 7u);
+}
+
+TEST(Quadruped, GetsFourLegsSpineNeckAndTailWhereverItLooks) {
+    for (const double turn : {0.0, 1.0, 2.5, 4.0}) {
+        HumanoidGltf dog = make_dog();
+        const glm::dquat about_y = glm::angleAxis(turn, glm::dvec3(0, 1, 0));
+        dog.move([&](glm::dvec3 p) { return about_y * p; });
+        expect_chains(rig(dog));
+    }
+}
+
+TEST(Quadruped, ANameSaysWhichEndIsTheHead) {
+    HumanoidGltf dog = make_dog();  // its tail stands up, its head hangs, and its toes are where its feet are
+    dog["tail3"].position = {0, 1.1, -0.5};
+    dog["neck"].position.y = 0.5;
+    dog["skull"].position.y = 0.3;
+    for (const char* side : {"left", "right"}) {
+        dog[side + std::string("Front4")].position = dog[side + std::string("Front3")].position;
+        dog[side + std::string("Hind5")].position = dog[side + std::string("Hind4")].position;
+    }
+    dog.names["skull"] = "Head";
+    const Rigged rigged = rig(dog);
+    EXPECT_EQ(rigged.ends("Neck"), Ends("neck", "Head"));
+    EXPECT_EQ(rigged.ends("LeftFrontLeg"), Ends("leftFront1", "leftFront4"));
+}
+
+TEST(Quadruped, HumanNamesOnFourLegsMakeNoHuman) {
+    const Rigged rigged = rig(make_quadruped());
+    EXPECT_EQ(rigged.ends("LeftHindLeg"), Ends("leftUpperLeg", "leftToes"));
+    EXPECT_EQ(rigged.ends("LeftFrontLeg").second, "leftHand");
+    EXPECT_EQ(find_chain(rigged.scene, "LeftArm"), nullptr);
+    EXPECT_EQ(find_chain(rigged.scene, "LeftLeg"), nullptr);
+}
+
+TEST(Quadruped, LegsOfTwoBonesAreSolvedAsSuchAndBendAsTheyRest) {
+    const Rigged rigged = rig(make_dog());
+    const Chain& front = *find_chain(rigged.scene, "LeftFrontLeg");
+    EXPECT_EQ(front.record.solver, static_cast<std::uint8_t>(Solver::two_bone));
+    EXPECT_NE(front.record.pole_vector, (std::array<float, 3>{}));
+    EXPECT_EQ(find_chain(rigged.scene, "LeftHindLeg")->record.solver, static_cast<std::uint8_t>(Solver::any));
+}
+
+TEST(Quadruped, LegsBendInTheirPlaneToTheSideToWhichTheyAreBent) {
+    const Rigged rigged = rig(make_dog());
+    for (const std::string side : {"left", "right"}) {
+        for (const auto& [joint, next] : {std::pair("Hind2", "Hind3"), std::pair("Hind3", "Hind4")}) {
+            const ConstraintRecord& hinge = rigged.constraint(side + joint);
+            EXPECT_EQ(static_cast<ConstraintModel>(hinge.model), ConstraintModel::hinge);
+            const std::uint32_t turned = joint_named(rigged.scene, side + joint);
+            const std::uint32_t end = joint_named(rigged.scene, side + next);
+            const glm::dvec3 rest = moved(rigged.scene, end, turned, 0, 0.0);
+            const glm::dvec3 bent = moved(rigged.scene, end, turned, 0, hinge.rotation_max[0]);
+            EXPECT_NEAR(rest.x, bent.x, 1e-6);
+            const glm::dvec3 root = moved(rigged.scene, joint_named(rigged.scene, side + "Hind1"), turned, 0, 0.0);
+            EXPECT_LT(glm::distance(root, bent), glm::distance(root, rest)) << joint;  // folded
+            const double whole = (hinge.rotation_max[0] - hinge.rotation_min[0]) / kTestDegree;
+            EXPECT_NEAR(whole, 165.0, 1e-3) << joint;
+        }
+    }
+}
+
+TEST(Quadruped, MoreLegsStandingAreSomethingElse) {
+    HumanoidGltf insect = make_dog();
+    for (const double side : {1.0, -1.0}) {
+        const std::string s = side > 0 ? "left" : "right";
+        insect.add(s + "Middle1", "back", {side * 0.1, 0.55, 0.0});
+        insect.add(s + "Middle2", s + "Middle1", {side * 0.1, 0.3, -0.05});
+        insect.add(s + "Middle3", s + "Middle2", {side * 0.1, 0.05, 0.0});
+    }
+    const Rigged rigged = rig(insect);
+    EXPECT_TRUE(rigged.report.proposals().empty());
+    EXPECT_EQ(warned(rigged.report, "nothing proposed"), 1u);
+}
+
+TEST(Quadruped, WingsAndManesAreNoLegs) {
+    HumanoidGltf dragon = make_dog();
+    for (const double side : {1.0, -1.0}) {
+        const std::string s = side > 0 ? "left" : "right";
+        dragon.add(s + "Wing1", "back", {side * 0.1, 0.7, 0.0});
+        dragon.add(s + "Wing2", s + "Wing1", {side * 0.5, 0.9, 0.0});
+        dragon.add(s + "Wing3", s + "Wing2", {side * 0.9, 0.8, -0.1});
+    }
+    dragon.add("mane", "neck", {0, 0.8, 0.3});
+    expect_chains(rig(dragon));
+}
+
+}  // namespace
+}  // namespace bendy::converter::quadruped_test
