@@ -68,17 +68,21 @@ std::string with_option_names(std::string_view message, OptionStyle style) {
     if (style == OptionStyle::program) return std::string(message);
     const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
     std::string text;
-    bool is_quoted = false;
+    char quoted_by = 0;
     for (std::size_t at = 0; at < message.size(); ++at) {
         const char c = message[at];
-        if (is_quoted && c == '\\') text += message[at++];
-        if (at >= message.size()) break;
-        if (c == '"') is_quoted = !is_quoted;
         const bool begins_word = at == 0 || message[at - 1] == ' ' || message[at - 1] == '(';
-        const bool is_option = !is_quoted && begins_word && message.substr(at, 2) == "--" && at + 2 < message.size() &&
-                               is_letter(message[at + 2]);
+        const bool is_option = quoted_by == 0 && begins_word && message.substr(at, 2) == "--" &&
+                               at + 2 < message.size() && is_letter(message[at + 2]);
         if (!is_option) {
-            text += message[at];
+            text += c;
+            if (quoted_by == 0 && begins_word && (c == '"' || c == '\'')) {
+                quoted_by = c;
+            } else if (quoted_by == '"' && c == '\\' && at + 1 < message.size()) {
+                text += message[++at];
+            } else if (c == quoted_by) {
+                quoted_by = 0;
+            }
             continue;
         }
         for (at += 2; at < message.size() && (is_letter(message[at]) || message[at] == '-'); ++at) {

@@ -32,6 +32,8 @@ TEST(Report, OptionsAreNamedAsTheInterfaceWritesThemButNotInAFilesTexts) {
     EXPECT_EQ(with_option_names(kMessage, OptionStyle::program), kMessage);
     EXPECT_EQ(with_option_names(kMessage, OptionStyle::python),
               R"(joint "a --merge-clips \" --b": merge_clips makes (root x) -- one--two)");
+    EXPECT_EQ(with_option_names("'x --a-b' is outside the source's folder: --root allows it", OptionStyle::python),
+              "'x --a-b' is outside the source's folder: root allows it");
     EXPECT_EQ(with_option_names("--ticks-per-second", OptionStyle::javascript), "ticksPerSecond");
     Report report(OptionStyle::javascript);
     report.warn("no rate; --ticks-per-second sets one");

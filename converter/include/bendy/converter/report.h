@@ -80,7 +80,7 @@ struct Warning {
 enum class OptionStyle : std::uint8_t { program, python, javascript };
 
 /// A message of the converter, which names options as the program does, with them as the interface writes them. Texts
-/// in double quotes, which are a file's, stay.
+/// in quotes, which are a file's, stay.
 std::string with_option_names(std::string_view message, OptionStyle style);
 
 /// Gathers warnings during a conversion; equal messages are counted together, in the order in which they first came.
