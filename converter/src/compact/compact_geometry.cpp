@@ -349,9 +349,21 @@ void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const 
 
 }  // namespace
 
-bool is_order_fixed(const Mesh& mesh) {
-    return !mesh.collapse.empty();
+namespace {
+
+/// How many vertices of a mesh are alive at its levels, ascending, from those that never collapse to all. Levels
+/// between vertices that collapse together are left out.
+std::vector<std::uint32_t> levels_of(const Scene& scene, std::uint32_t number) {
+    const Mesh& mesh = scene.meshes[number];
+    std::vector<std::uint32_t> alive{mesh.base, static_cast<std::uint32_t>(mesh.positions.size())};
+    for (const LodLevel& level : scene.levels) alive.push_back(level.alive[number]);
+    std::erase_if(alive, [&](std::uint32_t n) { return n < mesh.joined.size() && mesh.joined[n] != 0; });
+    std::sort(alive.begin(), alive.end());
+    alive.erase(std::unique(alive.begin(), alive.end()), alive.end());
+    return alive;
 }
+
+}  // namespace
 
 CompactGeometry compact_geometry(Scene& scene, double most_error, const std::function<void(double)>& progress) {
     CompactGeometry geometry;
@@ -367,9 +379,9 @@ CompactGeometry compact_geometry(Scene& scene, double most_error, const std::fun
         compact.vertex_of.resize(mesh.positions.size());
         std::iota(compact.vertex_of.begin(), compact.vertex_of.end(), 0u);
         compact_mesh(mesh, compact, budget, matrices, texels);
-        if (!is_order_fixed(mesh) && !mesh.positions.empty()) {
-            merge_vertices(mesh, compact);
-            order_for_codecs(mesh, compact);
+        if (!mesh.positions.empty()) {
+            if (mesh.collapse.empty()) merge_vertices(mesh, compact);
+            order_for_codecs(mesh, compact, levels_of(scene, number));
         }
         if (progress) progress(static_cast<double>(number + 1) / static_cast<double>(scene.meshes.size()));
     }

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace bendy::converter {
@@ -29,21 +30,21 @@ struct CompactGeometry {
 };
 
 /// Quantises all meshes of a scene, merges vertices that have become equal, and orders triangles and vertices for the
-/// codecs. The scene's numbers become what the integers decode to. A mesh's vertices keep their number and order where
-/// is_order_fixed.
+/// codecs. The scene's numbers become what the integers decode to. Vertices of a mesh with a collapse sequence are not
+/// merged, and stay between the same two of its levels.
 /// \param most_error  metres in model space: what positions, weights and morph targets together may move a point
 ///                    of the skin, at rest and in the poses of the scene's clips; above 0
 /// \param progress    called with 0 to 1; may be empty
 CompactGeometry compact_geometry(Scene& scene, double most_error, const std::function<void(double)>& progress);
-
-/// True if something else has settled the order of a mesh's vertices: its sequence of collapses.
-bool is_order_fixed(const Mesh& mesh);
 
 /// Merges vertices that are alike in every stream, bone and displacement, to the bit.
 void merge_vertices(Mesh& mesh, CompactMesh& compact);
 
 /// Orders the triangles of each range of assign_polygons so that neighbours follow one another, and the vertices as
 /// they are used first; the mesh's parts become these ranges. Lines and points keep their order.
-void order_for_codecs(Mesh& mesh, CompactMesh& compact);
+/// \param levels  of a mesh with a collapse sequence: how many vertices are alive at each, ascending, from Mesh::base
+/// to
+///                all; vertices stay between two of them, behind what they collapse onto
+void order_for_codecs(Mesh& mesh, CompactMesh& compact, std::span<const std::uint32_t> levels);
 
 }  // namespace bendy::converter

@@ -253,7 +253,7 @@ void put_collapse(LeafWriter& out, const Scene& scene) {
         }
         append_padded(payload, bits);
     }
-    out.leaf(FourCC("LODD"), payload);
+    out.leaf(FourCC("LODD"), payload, LeafShape{0, 0, sizeof(std::uint16_t), false});
 }
 
 }  // namespace bendy::converter
