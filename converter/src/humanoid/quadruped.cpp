@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace bendy::converter {
@@ -23,13 +24,31 @@ struct LegPair {
     std::uint32_t anchor = kNone;                 ///< the joint that carries both
 };
 
+/// The joints that are chosen, and the ends of limbs that move no vertices: leaves below the last chosen joint.
+std::vector<bool> with_ends(const Scene& scene, const std::vector<bool>& chosen) {
+    std::vector<bool> has_chosen(scene.joints.size());
+    std::vector<bool> has_any(scene.joints.size());
+    for (std::size_t joint = 0; joint < scene.joints.size(); ++joint) {
+        const std::uint32_t parent = scene.joints[joint].parent;
+        if (parent == kNone) continue;
+        has_any[parent] = true;
+        if (chosen[joint]) has_chosen[parent] = true;
+    }
+    std::vector<bool> all = chosen;
+    for (std::size_t joint = 0; joint < scene.joints.size(); ++joint) {
+        const std::uint32_t parent = scene.joints[joint].parent;
+        if (parent != kNone && !has_any[joint] && chosen[parent] && !has_chosen[parent]) all[joint] = true;
+    }
+    return all;
+}
+
 class QuadrupedFinder {
 public:
     QuadrupedFinder(const Scene& scene, const RestFrames& rest, const std::vector<bool>& chosen)
         : scene_(scene),
           rest_(rest),
           children_(list_children(scene, chosen)),
-          chains_(find_mirrored_chains(scene, rest, chosen)) {
+          chains_(find_mirrored_chains(scene, rest, with_ends(scene, chosen))) {
         measure_reach();
         for (const MirroredChains& chains : chains_) add_legs(chains);
     }
@@ -146,10 +165,11 @@ private:
             std::uint32_t next = kNone;
             double longest = -1.0;
             for (const std::uint32_t child : children_[at]) {
-                const glm::dvec3 from = rest_.position(child) - legs.root_place;
-                const bool is_beside = std::abs(glm::dot(from, legs.chains->across)) > 0.25 * legs.width;
-                if (is_trunk_[child] || (path.empty() && is_beside) || reach_to(at, child) <= longest) continue;
-                longest = reach_to(at, child);
+                const bool may_curl = !path.empty() && children_[at].size() == 1;
+                if (is_trunk_[child] || (!may_curl && !is_in_middle(legs, child, children_[at]))) continue;
+                const double reach = is_head(child) ? std::numeric_limits<double>::max() : reach_to(at, child);
+                if (reach <= longest) continue;
+                longest = reach;
                 next = child;
             }
             if (next != kNone) path.push_back(next);
@@ -157,6 +177,20 @@ private:
             at = next;
         }
         return path;
+    }
+
+    /// Whether a joint is on neither side of the plane between the legs, as one of a pair of ears is.
+    [[nodiscard]] bool is_in_middle(const LegPair& legs, std::uint32_t joint,
+                                    const std::vector<std::uint32_t>& siblings) const {
+        const auto side = [&](std::uint32_t of) {
+            return glm::dot(rest_.position(of) - legs.root_place, legs.chains->across);
+        };
+        const double beside = side(joint);
+        if (std::abs(beside) > 0.25 * legs.width) return false;
+        return std::none_of(siblings.begin(), siblings.end(), [&](std::uint32_t other) {
+            const glm::dvec3 mirrored = rest_.position(joint) - 2.0 * beside * legs.chains->across;
+            return other != joint && glm::distance(rest_.position(other), mirrored) < 0.5 * std::abs(beside);
+        });
     }
 
     [[nodiscard]] bool is_head(std::uint32_t joint) const {
@@ -204,7 +238,22 @@ private:
         cut_at_head(neck);
         found.neck = std::move(neck);
         found.tail = std::move(tail);
+        for (std::size_t leg = 0; leg < found.legs.size(); ++leg) found.targets[leg] = find_target(found.legs[leg]);
         return found;
+    }
+
+    /// A joint outside the leg that rests where the leg ends, as the one that an IK rig moves; kNone if there is none.
+    [[nodiscard]] std::uint32_t find_target(const std::vector<std::uint32_t>& leg) const {
+        const glm::dvec3 end = rest_.position(leg.back());
+        double length = 0.0;
+        for (std::size_t i = 1; i < leg.size(); ++i)
+            length += glm::distance(rest_.position(leg[i - 1]), rest_.position(leg[i]));
+        for (std::uint32_t joint = 0; joint < scene_.joints.size(); ++joint) {
+            const bool is_outside =
+                joint != leg.front() && !rest_.is_below(joint, leg.front()) && !rest_.is_below(leg.front(), joint);
+            if (is_outside && glm::distance(rest_.position(joint), end) < 0.01 * length) return joint;
+        }
+        return kNone;
     }
 
     /// From the hind legs to the front ones; from the front where the skeleton's root is there. Without the first
@@ -268,6 +317,7 @@ std::vector<Chain> make_quadruped_chains(const Scene& scene, const RestFrames& r
             const auto pole = bend ? rest.to_space_of(scene.joints[joints[0]].parent, *bend) : std::nullopt;
             if (pole) chain.record.pole_vector = to_array<3>(*pole);
         }
+        chain.record.target = found.targets[leg];
         for (const std::uint32_t joint : path_of(scene, joints.front(), joints.back())) {
             if (std::find(joints.begin(), joints.end(), joint) == joints.end()) chain.weights.push_back({joint, 0.0f});
         }

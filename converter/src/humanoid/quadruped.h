@@ -20,15 +20,17 @@ struct Quadruped {
 
     Stance stance;
     std::array<std::vector<std::uint32_t>, 4> legs;  ///< by Leg; at least three joints each, the foot last
-    std::vector<std::uint32_t> spine;                ///< between hind and front legs; may be empty, as the next two
-    std::vector<std::uint32_t> neck;                 ///< the head last
+    std::array<std::uint32_t, 4> targets{kNone, kNone, kNone,
+                                         kNone};  ///< what an IK rig moves the feet by; may be kNone
+    std::vector<std::uint32_t> spine;             ///< between hind and front legs; may be empty, as the next two
+    std::vector<std::uint32_t> neck;              ///< the head last
     std::vector<std::uint32_t> tail;
 };
 
 /// Looks for two pairs of limbs that are each other's mirror images and stand on one ground, on a trunk that lies
 /// between them; nothing where more than two pairs stand. Its front is where names say `head`, else where the feet
 /// point and the head is higher than the tail. Left and right follow from front and up.
-/// \param chosen  by joint: only these are looked at
+/// \param chosen  by joint: only these are looked at, and leaves below them, where legs may end
 std::optional<Quadruped> find_quadruped(const Scene& scene, const RestFrames& rest, const std::vector<bool>& chosen);
 
 /// LeftFrontLeg, RightFrontLeg, LeftHindLeg, RightHindLeg, Spine, Neck and Tail, those that have two bones or more

@@ -106,6 +106,28 @@ TEST(Quadruped, ANameSaysWhichEndIsTheHead) {
     EXPECT_EQ(rigged.ends("LeftFrontLeg"), Ends("leftFront1", "leftFront4"));
 }
 
+TEST(Quadruped, LegsMayEndInLeavesThatMoveNothingAndBeMovedByJointsElsewhere) {
+    HumanoidGltf dog = make_dog();
+    std::erase_if(dog.bones, [](const auto& bone) { return bone.name.find("Front4") != std::string::npos; });
+    dog.add("foot", "", dog["leftFront3"].position);  // of an IK rig
+    dog.add("toes", "foot", {0.1, 0.0, 0.3});
+    for (const char* ear : {"leftEar", "rightEar"}) dog[ear].position.y = 1.5;  // above all of the head
+    Scene scene = *dog.build().import();
+    Mesh mesh;
+    mesh.influences = 1;
+    for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+        if (scene.joints[joint].name.find("Front3") == std::string::npos) mesh.palette.joints.push_back(joint);
+    }
+    mesh.palette.inverse_bind.assign(mesh.palette.joints.size(), glm::mat4(1.0f));
+    scene.meshes.push_back(mesh);
+    Rigged rigged{std::move(scene), {}};
+    auto_rig(rigged.scene, {}, rigged.report);
+    EXPECT_EQ(rigged.ends("LeftFrontLeg"), Ends("leftFront1", "leftFront3"));
+    EXPECT_EQ(find_chain(rigged.scene, "LeftFrontLeg")->record.target, joint_named(rigged.scene, "foot"));
+    EXPECT_EQ(find_chain(rigged.scene, "RightFrontLeg")->record.target, kNone);
+    EXPECT_EQ(rigged.ends("Neck"), Ends("neck", "skull"));
+}
+
 TEST(Quadruped, HumanNamesOnFourLegsMakeNoHuman) {
     const Rigged rigged = rig(make_quadruped());
     EXPECT_EQ(rigged.ends("LeftHindLeg"), Ends("leftUpperLeg", "leftToes"));
