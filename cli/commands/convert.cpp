@@ -22,6 +22,7 @@
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace bendy::cli {
@@ -156,6 +157,17 @@ void convert_file(const ConvertArguments& arguments, NamedBy named) {
     if (!arguments.quiet && report.compact) print_compact(*report.compact, summary_stream(arguments.output));
 }
 
+/// What stands between spaces.
+std::vector<std::string> words_of(std::string_view text) {
+    std::vector<std::string> words;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find(' ', begin), text.size());
+        words.emplace_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return words;
+}
+
 /// What one run can do with standard input and output, and with names.
 void check_names(const ConvertArguments& arguments, bool is_batch) {
     const bool has_dash = std::any_of(arguments.inputs.begin(), arguments.inputs.end(), is_dash);
@@ -200,6 +212,34 @@ void run(ConvertArguments arguments) {
     convert_batch(arguments);
 }
 
+/// The options of convert_options.def, and --exact.
+void add_options(CLI::App& command, ConvertArguments& arguments) {
+    visit_options(arguments, [&](const ConvertOption& option, auto& value) {
+        if (option.name == "root") {
+            add_root(command, arguments.root);
+            return;
+        }
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, option::flag>) {
+            command.add_flag(option.flag(), value, option.full_help());
+        } else {
+            CLI::Option* const added = command.add_option(option.flag(), value, option.full_help());
+            if (!option.values.empty()) added->check(CLI::IsMember(words_of(option.values)))->capture_default_str();
+        }
+    });
+    command.add_flag("--exact", arguments.exact, "keep every number exactly; this is the default");
+    visit_options(arguments, [&](const ConvertOption& option, const auto&) {
+        for (const std::string& other : words_of(option.excludes)) {
+            const ConvertOption excluded{other, {}, {}, {}};
+            command.get_option(option.flag())->excludes(command.get_option(excluded.flag()));
+        }
+    });
+    command.get_option("--ticks-per-second")->check(CLI::PositiveNumber);
+    command.get_option("--max-error")->check([](const std::string& text) {
+        const auto bound = converter::parse_error_bound(text);
+        return bound ? std::string() : bound.error();
+    });
+}
+
 }  // namespace
 
 void add_convert(CLI::App& program) {
@@ -229,68 +269,7 @@ void add_convert(CLI::App& program) {
                       "print one JSON object per input, each on one line, instead of the summary and warnings");
     command->add_option("--depfile", arguments->depfile,
                         "for a single input: write the files that were read as a rule for Make or Ninja");
-    command->add_option(
-        "--scene", arguments->scene,
-        "the scene of a glTF file to convert, " + std::string(kByKey) + "; the file's default if not given");
-    command->add_option(
-        "--texture", arguments->texture,
-        "for Quake II models: the image of the skin, in place of the one that the file names, or of none");
-    command
-        ->add_option(
-            "--images", arguments->images,
-            "embed: copy image files into the output; link: keep them as URIs, relative to the output's folder")
-        ->check(CLI::IsMember({"embed", "link"}))
-        ->capture_default_str();
-    add_root(*command, arguments->root);
-    command
-        ->add_option("--ticks-per-second", arguments->ticks_per_second,
-                     "for X-files: key time units per second, for files that state none or a wrong number (30 if keys "
-                     "are numbered by frame); default: the file's AnimTicksPerSecond, or 4800")
-        ->check(CLI::PositiveNumber);
-    command->add_flag("--merge-clips", arguments->merge_clips,
-                      "merge clips that move different joints into one, for files that have one clip per joint");
-    command->add_flag("--instances", arguments->instances,
-                      "for glTF files: make a joint and a mesh for every instance of EXT_mesh_gpu_instancing; without "
-                      "this option their numbers are kept and the mesh is drawn once");
-    command->add_option(
-        "--rig", arguments->rig,
-        "a rig file with joint constraints, IK chains, markers and curves (spec/rig.md); `bendy rig` writes one");
-    CLI::Option* exact =
-        command->add_flag("--exact", arguments->exact, "keep every number exactly; this is the default");
-    command->add_flag("--auto-rig", arguments->auto_rig,
-                      "propose IK chains and joint constraints from the joints' names, the skeleton's shape and "
-                      "the clips, and list them");
-    command->add_flag(
-        "--auto-skin", arguments->auto_skin,
-        "bind each vertex of a mesh without a skin to the nearest bone of the file's skins; if the file has no skin, "
-        "to the nearest joint with no mesh on it or below it. A mesh attached to a bone is left unchanged");
-    command->add_option("--skeleton", arguments->skeleton,
-                        "for --auto-skin, which it implies: use only this joint, " + std::string(kByKey) +
-                            ", and its descendants as bones");
-    CLI::Option* compact = command
-                               ->add_flag("--compact", arguments->compact,
-                                          "minimise file size within an error bound, 0.005% unless --max-error is "
-                                          "given; the measured error is printed")
-                               ->excludes(exact);
-    CLI::Option* max_error =
-        command
-            ->add_option("--max-error", arguments->max_error,
-                         "how far a point of the skin may move: a length (0.1mm, 1cm, 50um, 0.001m) or a share of the "
-                         "character's height (0.005%); implies --compact")
-            ->check([](const std::string& text) {
-                const auto bound = converter::parse_error_bound(text);
-                return bound ? std::string() : bound.error();
-            });
-    CLI::Option* lod =
-        command->add_flag("--lod", arguments->lod,
-                          "compute levels of detail: the order in which vertices collapse; vertices are sorted by it");
-    command
-        ->add_flag("--sort-vertices", arguments->sort_vertices,
-                   "group vertices that follow the same bones, which saves work in every frame. By default vertices "
-                   "keep the source's order; --lod and --compact use their own")
-        ->excludes(lod)
-        ->excludes(compact)
-        ->excludes(max_error);
+    add_options(*command, *arguments);
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
     command->footer(
         "Everything is kept exactly, unless you use --compact. A warning names what the format cannot store.\nExample: "

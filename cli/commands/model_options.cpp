@@ -126,10 +126,7 @@ CLI::Option* add_character(CLI::App& command, std::filesystem::path& file) {
 }
 
 CLI::Option* add_root(CLI::App& command, std::filesystem::path& root) {
-    return command
-        .add_option("--root", root,
-                    "a folder whose files may be read if the input names them; without this option, only those in the "
-                    "input's own folder and below it are. Names in standard input start in this folder")
+    return command.add_option("--root", root, option_named("root").full_help())
         ->type_name("FOLDER")
         ->check(CLI::Validator(CLI::ExistingDirectory).description(""));
 }

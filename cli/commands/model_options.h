@@ -1,5 +1,7 @@
 #pragma once
 
+#include "convert/convert_options.h"
+
 #include <bendy/runtime.h>
 
 #include <CLI/CLI.hpp>
@@ -12,9 +14,6 @@
 
 // Options that several commands have, and what they ask of a model.
 namespace bendy::cli {
-
-/// How options take one of several named things, see find_by_key.
-constexpr std::string_view kByKey = "by name or number (#0 is always a number, =0 always a name)";
 
 /// Adds FILE of a command that takes a character of any kind.
 CLI::Option* add_character(CLI::App& command, std::filesystem::path& file);

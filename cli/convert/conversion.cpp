@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 #include <thread>
+#include <type_traits>
 
 namespace bendy::cli {
 namespace {
@@ -110,25 +111,15 @@ unsigned jobs_of(const ConvertArguments& arguments) {
 }
 
 std::string recipe_of(const ConvertArguments& arguments) {
-    const auto whole = [](const std::filesystem::path& path) {
-        return path.empty() ? std::string() : std::filesystem::absolute(path).string();
-    };
-    const nlohmann::json recipe{{"bendy", BENDY_VERSION},
-                                {"scene", arguments.scene},
-                                {"images", arguments.images},
-                                {"instances", arguments.instances},
-                                {"root", whole(arguments.root)},
-                                {"rig", whole(arguments.rig)},
-                                {"texture", whole(arguments.texture)},
-                                {"ticks_per_second", arguments.ticks_per_second},
-                                {"merge_clips", arguments.merge_clips},
-                                {"auto_rig", arguments.auto_rig},
-                                {"auto_skin", arguments.auto_skin},
-                                {"skeleton", arguments.skeleton},
-                                {"compact", arguments.compact},
-                                {"max_error", arguments.max_error},
-                                {"lod", arguments.lod},
-                                {"sort_vertices", arguments.sort_vertices}};
+    nlohmann::json recipe{{"bendy", BENDY_VERSION}};
+    visit_options(arguments, [&](const ConvertOption& option, const auto& value) {
+        nlohmann::json& place = recipe[std::string(option.name)];
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, option::path>) {
+            place = value.empty() ? std::string() : std::filesystem::absolute(value).string();
+        } else {
+            place = value;
+        }
+    });
     return json_text(recipe);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "convert/convert_options.h"
+
 #include <bendy/converter/convert.h>
 #include <bendy/converter/report.h>
 #include <bendy/format/byte_reader.h>
@@ -14,26 +16,11 @@
 namespace bendy::cli {
 
 /// What `bendy convert` is told.
-struct ConvertArguments {
+struct ConvertArguments : ConvertChoices {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path output;  ///< a file; of several inputs, a folder
-    std::string scene;
-    std::string images = "embed";
-    bool instances = false;
-    std::filesystem::path rig;
-    std::filesystem::path root;  ///< see ReadableFolders; may be empty
     std::filesystem::path depfile;
     bool exact = true;
-    std::filesystem::path texture;  ///< of Quake II models; empty: as the file says
-    double ticks_per_second = 0.0;  ///< of X-files; 0: as the file says
-    bool merge_clips = false;
-    bool auto_rig = false;
-    bool auto_skin = false;
-    std::string skeleton;
-    bool compact = false;
-    std::string max_error;
-    bool lod = false;
-    bool sort_vertices = false;
     unsigned jobs = 0;  ///< files at a time, or threads for one file; 0: one for each processor
     bool force = false;
     bool json = false;

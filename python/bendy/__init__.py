@@ -19,6 +19,7 @@ import html as _html
 import json as _json
 import math as _math
 import os as _os
+import textwrap as _textwrap
 from pathlib import Path as _Path
 
 import numpy as _np
@@ -346,16 +347,14 @@ def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, s
             ticks_per_second=0.0, name="source.glb", jobs=0, progress=None, overwrite=False):
     """Converts glTF, X-files, Quake II models and bendy files to a bendy file, exactly unless compact. Returns a Conversion.
 
-    output: the path to write; None: nothing is written, see File.save. The other arguments are the options of `bendy convert`.
-    rig: a rig file. auto_rig: propose IK chains and constraints. auto_skin, skeleton: bind meshes without a skin to bones. compact:
-    True, or the largest error, "0.1mm" or "0.005%". lod: levels of detail. images: "embed" or "link". root: a folder whose files may
-    be read if the source names them; else only those in the source's own folder and below it are. scene: of a glTF file, its name or
-    number. texture: the image of a Quake II model's skin. name: of a source that is bytes, in front the folder of the files that it
-    refers to; without one, only root counts. jobs: the threads that make a compact file, at most; 0: one for each processor.
-    progress: is called with the share that is done, 0 to 1, when the source is read, and while vertices are collapsed (lod) and a
-    compact file is made; what it raises, or a KeyboardInterrupt, ends the conversion there.
+    output: the path to write; None: nothing is written, see File.save. name: of a source that is bytes, in front the folder of the
+    files that it refers to; without one, only root counts. jobs: the threads that make a compact file, at most; 0: one for each
+    processor. progress: is called with the share that is done, 0 to 1, when the source is read, and while vertices are collapsed
+    (lod) and a compact file is made; what it raises, or a KeyboardInterrupt, ends the conversion there. compact may also be the
+    largest error, "0.1mm" or "0.005%", and scene a number.
     Raises ConversionError with the place in the source, FileNotFoundError, FileExistsError unless overwrite, ValueError.
     """
+    given = dict(locals())
     if images not in ("embed", "link"):
         raise ValueError("images must be embed or link")
     if output is not None:
@@ -370,17 +369,22 @@ def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, s
         _must_exist(rig)
     if texture is not None:
         _must_exist(texture)
+    options = {option: given[option] for option in _bendy.convert_options() if given.get(option) is not None}
     if scene is not None and not isinstance(scene, str):
-        scene = f"#{scene}"  # "0" might be a name
-    bound = None if compact is False else "" if compact is True else compact
-    made, report, sources = _bendy.convert(
-        file, found, "" if output is None else output, scene, root or "", images == "embed", instances, rig,
-        texture or "", ticks_per_second, merge_clips, auto_rig, auto_skin, skeleton, bound, lod, sort_vertices, jobs, progress)
+        options["scene"] = f"#{scene}"  # "0" might be a name
+    if not isinstance(compact, bool):
+        options["compact"], options["max_error"] = True, compact
+    made, report, sources = _bendy.convert(file, found, "" if output is None else output, options, jobs, progress)
     if output is not None:
         _claim_bendy(output, overwrite, sources)
         made.write(output)
         output = _Path(output)
     return Conversion(made, output, report, sources)
+
+
+convert.__doc__ += "\n    The options of `bendy convert`:\n" + "".join(
+    _textwrap.fill(f"{_name}: {_help}.", 120, initial_indent="    ", subsequent_indent="        ") + "\n"
+    for _name, _help in _bendy.convert_options().items() if _name != "max_error")
 
 
 def validate(source):

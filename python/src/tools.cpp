@@ -21,7 +21,7 @@
 #include <algorithm>
 #include <exception>
 #include <span>
-#include <thread>
+#include <type_traits>
 #include <utility>
 
 // convert, validate, inspect, edit, diff, dump and export.
@@ -65,34 +65,43 @@ std::filesystem::path in_a_folder(const std::filesystem::path& file) {
     return file.empty() || file.has_parent_path() ? file : "." / file;
 }
 
+/// Those of cli/convert/convert_options.def that are in the dict.
+cli::ConvertArguments arguments_of(const py::dict& options) {
+    cli::ConvertArguments arguments;
+    std::size_t known = 0;
+    cli::visit_options(arguments, [&](const cli::ConvertOption& option, auto& value) {
+        const py::str name(option.name.data(), option.name.size());
+        if (!options.contains(name)) return;
+        value = options[name].template cast<std::decay_t<decltype(value)>>();
+        ++known;
+    });
+    if (known != options.size()) throw py::type_error("convert has no such option");
+    return arguments;
+}
+
+/// The help of each option, with options named as Python does.
+py::dict convert_options() {
+    const cli::ConvertArguments arguments;
+    py::dict options;
+    cli::visit_options(arguments, [&](const cli::ConvertOption& option, const auto&) {
+        const std::string help = option.full_help();
+        options[py::str(option.name.data(), option.name.size())] =
+            text(converter::with_option_names(help, converter::OptionStyle::python));
+    });
+    return options;
+}
+
 py::tuple convert_source(const std::filesystem::path& file, const SourcePointer& source,
-                         const std::filesystem::path& output, const std::optional<std::string>& scene,
-                         const std::filesystem::path& root, bool embed_images, bool instances,
-                         const std::optional<std::filesystem::path>& rig, const std::filesystem::path& texture,
-                         double ticks_per_second, bool merge_clips, bool auto_rig, bool auto_skin,
-                         const std::string& skeleton, const std::optional<std::string>& max_error, bool lod,
-                         bool sort_vertices, unsigned jobs, const py::object& progress) {
-    converter::ConvertOptions options;
-    options.output = output;
-    options.gltf.scene = scene;
-    options.gltf.root = root;
-    options.gltf.embed_images = embed_images;
-    options.gltf.instances = instances;
-    options.rig = rig;
-    options.texture = texture;
-    options.ticks_per_second = ticks_per_second;
-    options.merge_clips = merge_clips;
-    options.auto_rig = auto_rig;
-    options.auto_skin = auto_skin || !skeleton.empty();
-    options.skeleton = skeleton;
-    options.lod = lod;
-    options.sort_vertices = sort_vertices;
-    options.threads = std::max(jobs != 0 ? jobs : std::thread::hardware_concurrency(), 1u);
-    if (max_error) {
-        const auto bound = max_error->empty() ? converter::ErrorBound() : converter::parse_error_bound(*max_error);
+                         const std::filesystem::path& output, const py::dict& given, unsigned jobs,
+                         const py::object& progress) {
+    cli::ConvertArguments arguments = arguments_of(given);
+    arguments.jobs = jobs;
+    if (!arguments.max_error.empty()) {
+        const auto bound = converter::parse_error_bound(arguments.max_error);
         if (!bound) throw py::value_error("compact: " + bound.error());
-        options.compact = *bound;
     }
+    converter::ConvertOptions options = cli::options_of(arguments);
+    options.output = output;
     std::exception_ptr stopped;
     double told = -1.0;
     options.progress = [&](double done) {
@@ -403,11 +412,9 @@ py::tuple export_source(const SourcePointer& source, const std::string& format, 
 }  // namespace
 
 void bind_tools(py::module_& module) {
-    module.def("convert", &convert_source, py::arg("file"), py::arg("source"), py::arg("output"), py::arg("scene"),
-               py::arg("root"), py::arg("embed_images"), py::arg("instances"), py::arg("rig"), py::arg("texture"),
-               py::arg("ticks_per_second"), py::arg("merge_clips"), py::arg("auto_rig"), py::arg("auto_skin"),
-               py::arg("skeleton"), py::arg("max_error"), py::arg("lod"), py::arg("sort_vertices"), py::arg("jobs"),
-               py::arg("progress"), "See bendy.convert.");
+    module.def("convert", &convert_source, py::arg("file"), py::arg("source"), py::arg("output"), py::arg("options"),
+               py::arg("jobs"), py::arg("progress"), "See bendy.convert.");
+    module.def("convert_options", &convert_options, "The options that decide which bytes convert makes: name -> help.");
     module.def(
         "format_named_by", [](const std::filesystem::path& file) { return text(cli::format_named_by(file)); },
         py::arg("file"), "The format that a file's suffix means, as \"binary glTF\"; empty if it has no meaning.");

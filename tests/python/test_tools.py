@@ -1,5 +1,6 @@
 """convert, validate, inspect, edit, export, render: the program's answers, and files that are never lost."""
 
+import inspect
 import json
 import os
 import signal
@@ -25,6 +26,16 @@ def test_conversion_equals_the_programs(tmp_path, program, mannequin):
     in_memory = bendy.convert(source)
     assert in_memory.output is None and bytes(in_memory.data) == mannequin.read_bytes()
     assert bytes(bendy.convert(source.read_bytes()).data) == mannequin.read_bytes()
+
+
+def test_convert_takes_the_options_of_the_program():
+    own = {"source", "output", "name", "jobs", "progress", "overwrite"}
+    parameters = set(inspect.signature(bendy.convert).parameters)
+    assert parameters - own == set(bendy._bendy.convert_options()) - {"max_error"}, "compact=... is --max-error, too"
+    for option in parameters:
+        assert option in ("source", "overwrite") or f"{option}: " in bendy.convert.__doc__, f"{option} is not described"
+    with pytest.raises(TypeError, match="no such option"):
+        bendy._bendy.convert("a.glb", None, "", {"speed": 1}, 0, None)
 
 
 def test_compact_conversion(compact, mannequin):

@@ -266,6 +266,16 @@ test('what is no bendy file is refused by name', async () => {
   await assert.rejects(tools.assemble('{"bendy": '), { kind: 'malformed', code: 'TEXT', path: /^\d+:\d+$/ });
 });
 
+test('convert takes the options of the program', () => {
+  const options = readFileSync(join(repository, 'cli/convert/convert_options.def'), 'utf8');
+  const names = [...options.matchAll(/^BENDY_CONVERT_OPTION\(\w+, (\w+),/gm)].map(([, name]) => name.replace(/_(\w)/g, (_, letter) => letter.toUpperCase()));
+  const types = readFileSync(join(repository, 'web/src/tools/types.ts'), 'utf8').match(/interface ConvertOptions \{(.*?)^\}/ms)[1];
+  const typed = [...types.matchAll(/^ {2}(\w+)\?:/gm)].map(([, name]) => name);
+  assert.ok(names.length > 10);
+  const own = ['main', 'progress']; // of the files, there are only those that are given; the largest error is that of `compact`
+  assert.deepEqual(typed.filter((name) => !own.includes(name)).sort(), names.filter((name) => !['root', 'maxError'].includes(name)).sort());
+});
+
 test('progress is told, and what it throws comes out', async () => {
   const shares = [];
   await tools.convert(read(examples[0]), { compact: true, progress: (share) => shares.push(share) });

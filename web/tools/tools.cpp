@@ -34,6 +34,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -68,11 +70,13 @@ const char* kind_name(ErrorCode code) {
     throw Failure{"bad_argument", "BAD_ARGUMENT", std::move(message)};
 }
 
+std::string in_javascript(std::string_view text) {
+    return converter::with_option_names(text, converter::OptionStyle::javascript);
+}
+
 [[noreturn]] void fail(const converter::ImportError& error) {
     const std::string file = error.file.empty() ? "" : error.file.generic_string() + ": ";
-    throw Failure{"conversion", "CONVERSION",
-                  file + converter::with_option_names(cli::describe(error), converter::OptionStyle::javascript),
-                  error.place};
+    throw Failure{"conversion", "CONVERSION", file + in_javascript(cli::describe(error)), error.place};
 }
 
 MappedFile map(const Path& file) {
@@ -132,21 +136,16 @@ std::string text_of(const Json& request, const char* key) {
 
 Json run_convert(const Json& request, Made& made) {
     cli::ConvertArguments arguments;
-    arguments.scene = text_of(request, "scene");
+    cli::visit_options(arguments, [&](const cli::ConvertOption& option, auto& value) {
+        const auto given = request.find(in_javascript(option.flag()));
+        if (given == request.end()) return;
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Path>) {
+            value = given->get<std::string>();
+        } else {
+            given->get_to(value);
+        }
+    });
     arguments.root = "/";  // all files here are the caller's
-    arguments.images = request.value("images", arguments.images);
-    arguments.instances = request.value("instances", false);
-    arguments.rig = text_of(request, "rig");
-    arguments.texture = text_of(request, "texture");
-    arguments.ticks_per_second = request.value("ticksPerSecond", 0.0);
-    arguments.merge_clips = request.value("mergeClips", false);
-    arguments.auto_rig = request.value("autoRig", false);
-    arguments.auto_skin = request.value("autoSkin", false);
-    arguments.skeleton = text_of(request, "skeleton");
-    arguments.compact = request.value("compact", false);
-    arguments.max_error = text_of(request, "maxError");
-    arguments.lod = request.value("lod", false);
-    arguments.sort_vertices = request.value("sortVertices", false);
     if (!arguments.max_error.empty()) {
         const auto bound = converter::parse_error_bound(arguments.max_error);
         if (!bound) refuse("compact: " + bound.error());
