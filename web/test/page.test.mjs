@@ -255,6 +255,15 @@ test('images that a bendy file links to are drawn, or their absence is said', { 
   assert.match(await text('#warnings'), /red%20skin\.png.*is not among the files/);
 });
 
+test('messages do not name options, which the page has none of', { skip }, async () => {
+  const file = join(folder, 'many.gltf');
+  writeFileSync(file, JSON.stringify({ asset: { version: '2.0' }, extensionsRequired: ['EXT_mesh_gpu_instancing'] }));
+  await open(file);
+  await shown('many.gltf', 'cannot be shown');
+  assert.match(await text('#faults'), /EXT_mesh_gpu_instancing.*not supported/);
+  assert.doesNotMatch(await text('#faults'), /instances/);
+});
+
 test('sixty broken files show their faults, and the page goes on', { skip }, async () => {
   const whole = readFileSync(join(folder, 'expected.bendy'));
   const glb = readFileSync(join(root, 'examples/tentacle.glb'));
