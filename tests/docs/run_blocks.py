@@ -16,6 +16,10 @@ A comment before a block says where else it is run, or why it is not:
     <!-- run by tests/install -->    the place must exist
     <!-- not run: needs Blender -->  listed when the test ends
 
+A comment names figures in the text that a command prints; each must be in what it prints now, and in the page:
+
+    <!-- printed by: bendy convert mannequin.glb | 351,344 bytes | 65 -->
+
 A block without a language, or an indented one, is a fault: nothing hides.
 """
 
@@ -32,6 +36,7 @@ from pathlib import Path
 
 FENCE = re.compile(r"^```(\w*)\s*$")
 COMMENT = re.compile(r"^<!-- (run by|not run:) (.+) -->$")
+FIGURES = re.compile(r"^<!-- printed by: ([^|\n]+?)((?: \| [^|\n]+?)+) -->$", re.MULTILINE)
 # What the parts of functions in the pages may name beside what they declare.
 PARTS = """
 #include <bendy/runtime.h>
@@ -156,6 +161,18 @@ class Runner:
         source.write_text(text, encoding="utf-8")
         self.run(self.parts[0], [*shlex.split(self.options.compile), "-c", str(source), "-o", "/dev/null"])
 
+    def check_figures(self, page, text):
+        """Of the comments of a page: what their commands print, and the page says."""
+        said = " ".join(re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL).split())
+        for found in FIGURES.finditer(text):
+            place = f"{page}:{text.count(chr(10), 0, found.start()) + 1}"
+            printed = self.run(place, ["bash", "-eu", "-o", "pipefail", "-c", found[1]])
+            for figure in found[2].split(" | ")[1:]:
+                if figure not in printed:
+                    self.fault(place, f"'{figure}' is not printed by {found[1]}:\n{printed[-2000:]}")
+                if figure not in said:
+                    self.fault(place, f"'{figure}' is not in the page")
+
     def run_block(self, block):
         if block.comment:
             kind, where = block.comment
@@ -193,7 +210,8 @@ def main():
     options = parser.parse_args()
     faults, not_run, ran = [], [], 0
     for page in options.pages:
-        blocks, indented = blocks_of(page, (Path(options.source) / page).read_text(encoding="utf-8"))
+        text = (Path(options.source) / page).read_text(encoding="utf-8")
+        blocks, indented = blocks_of(page, text)
         faults += [f"{page}:{line}: an indented block: fence it and name its language" for line in indented]
         with tempfile.TemporaryDirectory(prefix="bendy-docs-") as folder:
             for name in ("mannequin", "tentacle"):
@@ -206,6 +224,7 @@ def main():
                     runner.printed = None
                 runner.run_block(block)
             runner.compile_parts()
+            runner.check_figures(page, text)
         print(f"{page}: {runner.ran} blocks run")
         faults += runner.faults
         not_run += runner.not_run
