@@ -238,10 +238,15 @@ PyReachResult result_of(const ReachResult& result, bool is_aim) {
             is_aim};
 }
 
+float fraction_of(double number, const char* name) {
+    if (number >= 0.0 && number <= 1.0) return static_cast<float>(number);
+    throw py::value_error(std::string(name) + " must lie between 0 and 1");
+}
+
 PyReachResult reach_target(PyPose& self, const py::object& chain, const py::object& position,
                            const py::object& rotation, const std::string& solver, const py::object& pole,
                            double influence, double tolerance, std::uint32_t iterations, bool obey_constraints,
-                           bool carry_target) {
+                           bool carry_target, double softness, double gain, double step_limit, std::uint32_t restarts) {
     const Use pose(self);
     const Chain& found = find_chain(self.character, chain);
     const ReachTarget target = target_of(position, rotation);
@@ -249,9 +254,13 @@ PyReachResult reach_target(PyPose& self, const py::object& chain, const py::obje
     options.solver = solver_of(solver);
     options.iterations = iterations;
     options.tolerance = check_finite(tolerance, "tolerance");
-    options.influence = check_finite(influence, "influence");
+    options.influence = fraction_of(influence, "influence");
     options.obey_constraints = obey_constraints;
     options.carry_target = carry_target;
+    options.softness = fraction_of(softness, "softness");
+    options.gain = check_finite(gain, "gain");
+    options.step_limit = check_finite(step_limit, "step_limit");
+    options.restarts = restarts;
     if (!pole.is_none()) {
         const std::vector<float> p = numbers_of(pole, 3, "pole");
         options.pole = glm::vec3(p[0], p[1], p[2]);
@@ -444,13 +453,20 @@ void bind_pose(py::module_& module) {
             "reach", &reach_target, py::arg("chain"), py::arg("target"), py::kw_only(),
             py::arg("rotation") = py::none(), py::arg("solver") = "any", py::arg("pole") = py::none(),
             py::arg("influence") = 1.0, py::arg("tolerance") = 0.0, py::arg("iterations") = 0,
-            py::arg("obey_constraints") = true, py::arg("carry_target") = false,
+            py::arg("obey_constraints") = true, py::arg("carry_target") = false, py::arg("softness") = 0.0,
+            py::arg("gain") = 1.0, py::arg("step_limit") = 0.2, py::arg("restarts") = 8,
             "Moves an IK chain (its name, number or object) so that its tip reaches `target`, (3,) metres in model "
             "space, and there has `rotation`, a unit quaternion x, y, z, w. Joints stay within their constraints. A "
             "target that is not reached is a result, not an error.\n\nsolver: any (the chain's own), pull, two_bone, "
             "ccd, fabrik, aim, least_squares. pole: (3,) metres, the point to bend towards. influence: 0 to 1, how far "
             "the solution is blended in. tolerance: metres; 0: the chain's own. iterations: at most; 0: the chain's "
-            "own. carry_target: also moves the joint that the chain follows. Raises KeyError, IndexError, ValueError.")
+            "own. carry_target: also moves the joint that the chain follows. softness: two_bone, 0 to 1, the fraction "
+            "of "
+            "its length over which the chain slows near full reach. gain, step_limit: pull, radians per chain length "
+            "of "
+            "distance, and radians per joint and call. restarts: least_squares, other starting points to try when it "
+            "is "
+            "stuck. Raises KeyError, IndexError, ValueError.")
         .def(
             "reach_all",
             [](PyPose& self) -> PyPose& {

@@ -3,6 +3,7 @@
 import importlib.util
 import math
 import os
+import re
 import threading
 import time
 
@@ -126,6 +127,9 @@ def test_wrong_arguments(model, compact):
         (lambda: pose.reach("IK_LeftArm", "abc"), (TypeError, ValueError)),
         (lambda: pose.reach("IK_LeftArm", (0, 1, 0), rotation=(0, 0, 0, 2)), ValueError),
         (lambda: pose.reach("IK_LeftArm", (0, 1, 0), solver="magic"), ValueError),
+        (lambda: pose.reach("IK_LeftArm", (0, 1, 0), softness=1.5), ValueError),
+        (lambda: pose.reach("IK_LeftArm", (0, 1, 0), influence=-0.1), ValueError),
+        (lambda: pose.reach("IK_LeftArm", (0, 1, 0), gain=math.inf), ValueError),
         (lambda: pose.reach("IK_Tail", (0, 1, 0)), KeyError),
         (lambda: pose.blend(other.pose(), 0.5), ValueError),
         (lambda: pose.blend(model.pose(), nan), ValueError),
@@ -240,3 +244,25 @@ def test_long_calls_release_the_gil(model):
         steps += 1
         time.sleep(0)
     assert steps > 10
+
+
+def test_reach_has_all_options_of_the_c_api():
+    struct = re.search(r"typedef struct bendy_reach_options \{(.*?)\}", (ROOT / "capi/include/bendy.h").read_text(), re.DOTALL)[1]
+    fields = set(re.findall(r"^\s*\w+ (\w+)(?:\[\d+\])?;", struct, re.MULTILINE)) - {"size", "has_pole"}
+    renamed = {"ignore_constraints": "obey_constraints"}
+    signature = bendy.Pose.reach.__doc__.split(" -> ")[0]
+    options = set(re.findall(r"(\w+):", signature)) - {"self", "chain", "target", "rotation"}
+    assert options == {renamed.get(field, field) for field in fields}
+
+
+def test_options_of_solvers_reach_them(model):
+    """Each moves the hand otherwise than its default, with the solver that it is for."""
+    def hand(**options):
+        pose = model.sample("Walk", 0.3)
+        result = pose.reach("IK_LeftArm", (0.3, 1.2, 0.4), **options)
+        return tuple(pose.matrices.ravel()), result
+
+    for solver, options in (("pull", {"gain": 0.5}), ("pull", {"step_limit": 0.01}), ("two_bone", {"softness": 0.5})):
+        assert hand(solver=solver)[0] != hand(solver=solver, **options)[0], options
+    far = {"solver": "least_squares", "tolerance": 1e-9}
+    assert hand(**far, restarts=0)[1].iterations <= hand(**far, restarts=8)[1].iterations
