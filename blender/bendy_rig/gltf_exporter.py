@@ -60,16 +60,16 @@ def run_exporter(context, path, options):
 def objects_at_rest():
     """The exporter writes where objects are in the current frame. Those of an import that clips move are put where they rest."""
     moved = []                      # (owner, its action, data path -> values before)
-    for owner in (*bpy.data.objects, *bpy.data.shape_keys):
-        animation, rest = owner.animation_data, kept(owner, REST)
-        if not (animation and isinstance(rest, dict)) or not is_in_track(animation):
-            continue
-        before = {path: value_of(owner, path) for path in rest}
-        moved.append((owner, animation.action, before))
-        animation.action = None
-        for path, values in rest.items():
-            set_value(owner, path, values)
     try:
+        for owner in (*bpy.data.objects, *bpy.data.shape_keys):
+            animation, rest = owner.animation_data, kept(owner, REST)
+            if not (animation and isinstance(rest, dict)) or not is_in_track(animation):
+                continue
+            rest = {path: values for path, values in rest.items() if value_of(owner, path) is not None}
+            moved.append((owner, animation.action, {path: value_of(owner, path) for path in rest}))
+            animation.action = None
+            for path, values in rest.items():
+                set_value(owner, path, values)
         yield
     finally:
         for owner, action, before in moved:
@@ -84,7 +84,11 @@ def is_in_track(animation):
 
 
 def value_of(owner, path):
-    value = owner.path_resolve(path)
+    """A list of floats; None for what is no longer there."""
+    try:
+        value = owner.path_resolve(path)
+    except ValueError:
+        return None
     return [value] if isinstance(value, float) else list(value)
 
 

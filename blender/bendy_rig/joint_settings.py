@@ -31,7 +31,7 @@ class Axes:
     @staticmethod
     def bone_axis(column, tolerance):
         axis = max(range(3), key=lambda i: abs(column[i]))
-        others = max(abs(column[i]) for i in range(3) if i != axis)
+        others = math.hypot(*(column[i] for i in range(3) if i != axis))
         return (axis, 1 if column[axis] > 0 else -1) if others < tolerance else None
 
     def are_bone_axes(self):
@@ -198,7 +198,7 @@ def described(constraint):
     angles = [f'{axis} {range_text(constraint[axis])}' for axis in LETTERS if axis in constraint]
     if 'angle' in constraint:
         angles.append(f'at most {constraint["angle"]:g}')
-    lines = [f'{named(model).split(" ", 1)[-1].capitalize()}: {", ".join(angles)}' + (' degrees' if angles else '')]
+    lines = [named(model).split(' ', 1)[-1].capitalize() + (f': {", ".join(angles)} degrees' if angles else '')]
     if frame and model in AXES_OF_MODEL and not all(Axes(frame).of[:AXES_OF_MODEL[model]]):
         x, y, z, w = frame
         columns = Quaternion((w, x, y, z)).normalized().to_matrix().col

@@ -372,7 +372,7 @@ def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, s
     options = {option: given[option] for option in _bendy.convert_options() if given.get(option) is not None}
     if scene is not None and not isinstance(scene, str):
         options["scene"] = f"#{scene}"  # "0" might be a name
-    if not isinstance(compact, bool):
+    if compact is not None and not isinstance(compact, bool):
         options["compact"], options["max_error"] = True, compact
     made, report, sources = _bendy.convert(file, found, "" if output is None else output, options, jobs, progress)
     if output is not None:
@@ -382,9 +382,10 @@ def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, s
     return Conversion(made, output, report, sources)
 
 
-convert.__doc__ += "\n    The options of `bendy convert`:\n" + "".join(
-    _textwrap.fill(f"{_name}: {_help}.", 120, initial_indent="    ", subsequent_indent="        ") + "\n"
-    for _name, _help in _bendy.convert_options().items() if _name != "max_error")
+if convert.__doc__:  # python -OO has none
+    convert.__doc__ += "\n    The options of `bendy convert`:\n" + "".join(
+        _textwrap.fill(f"{_name}: {_help}.", 120, initial_indent="    ", subsequent_indent="        ") + "\n"
+        for _name, _help in _bendy.convert_options().items() if _name != "max_error")
 
 
 def validate(source):

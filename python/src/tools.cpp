@@ -72,8 +72,12 @@ cli::ConvertArguments arguments_of(const py::dict& options) {
     cli::visit_options(arguments, [&](const cli::ConvertOption& option, auto& value) {
         const py::str name(option.name.data(), option.name.size());
         if (!options.contains(name)) return;
-        value = options[name].template cast<std::decay_t<decltype(value)>>();
         ++known;
+        try {
+            value = options[name].template cast<std::decay_t<decltype(value)>>();
+        } catch (const py::cast_error&) {
+            throw py::type_error(std::string(option.name) + " has the wrong type");
+        }
     });
     if (known != options.size()) throw py::type_error("convert has no such option");
     return arguments;

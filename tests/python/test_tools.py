@@ -34,6 +34,10 @@ def test_convert_takes_the_options_of_the_program():
     assert parameters - own == set(bendy._bendy.convert_options()) - {"max_error"}, "compact=... is --max-error, too"
     for option in parameters:
         assert option in ("source", "overwrite") or f"{option}: " in bendy.convert.__doc__, f"{option} is not described"
+    for option, value in (("skeleton", 3), ("compact", 0.1), ("lod", "no"), ("ticks_per_second", "x")):
+        with pytest.raises(TypeError, match="has the wrong type"):
+            bendy.convert(ROOT / "examples/tentacle.glb", **{option: value})
+    assert bendy.convert(ROOT / "examples/tentacle.glb", compact=None).report
     with pytest.raises(TypeError, match="no such option"):
         bendy._bendy.convert("a.glb", None, "", {"speed": 1}, 0, None)
 

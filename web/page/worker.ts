@@ -44,7 +44,7 @@ function rigOf(names: string[], main: string): string | undefined {
 }
 
 /** A message without the clause that names an option of `convert`: the page has none. */
-const withoutOption = (message: string): string => message.replace(/(; | unless |: )(?:[^;:]* \(?)?\b(?:ticksPerSecond|mergeClips|instances)\b.*$/, '');
+const withoutOption = (message: string): string => message.replace(/ unless instances are made \(instances\)$|; ticksPerSecond sets .*$|: mergeClips makes .*$/, '');
 
 async function read({ files, main, autoRig }: Request & { kind: 'read' }, progress: (share: number) => void): Promise<Answers['read']> {
   const given = files[main]!;

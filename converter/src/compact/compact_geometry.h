@@ -42,9 +42,8 @@ void merge_vertices(Mesh& mesh, CompactMesh& compact);
 
 /// Orders the triangles of each range of assign_polygons so that neighbours follow one another, and the vertices as
 /// they are used first; the mesh's parts become these ranges. Lines and points keep their order.
-/// \param levels  of a mesh with a collapse sequence: how many vertices are alive at each, ascending, from Mesh::base
-/// to
-///                all; vertices stay between two of them, behind what they collapse onto
+/// \param levels  of a mesh with a collapse sequence: how many vertices are alive at each, ascending, from those that
+///                never collapse to all; vertices stay between two of them, behind what they collapse onto
 void order_for_codecs(Mesh& mesh, CompactMesh& compact, std::span<const std::uint32_t> levels);
 
 }  // namespace bendy::converter

@@ -136,14 +136,15 @@ std::optional<glm::dvec3> AnatomyBuilder::along(std::uint32_t from, std::uint32_
 }
 
 void AnatomyBuilder::add_column(const std::vector<std::uint32_t>& joints, std::uint32_t next, BodyJoint part,
-                                const Ranges& together, const glm::dvec3& straight, const glm::dvec3& z) {
+                                const Ranges& together, const glm::dvec3& straight, std::optional<glm::dvec3> z) {
     is_right_ = false;
     const auto count = static_cast<double>(joints.size());
     const Ranges each{divided(together.x, count), divided(together.y, count), divided(together.z, count)};
     for (std::size_t i = 0; i < joints.size(); ++i) {
         const auto direction = along(joints[i], i + 1 < joints.size() ? joints[i + 1] : next);
         const std::size_t added = joints_.size();
-        add_swing(joints[i], part, direction ? *direction : straight, z, each, std::nullopt,
+        const glm::dvec3 x = direction ? *direction : straight;
+        add_swing(joints[i], part, x, z ? *z : glm::cross(x, stance_.left), each, std::nullopt,
                   joints.size() > 1 ? i + 1 : 0);
         if (joints_.size() > added) joints_.back().widest = widened(together);
     }

@@ -60,7 +60,7 @@ struct JointAnatomy {
     std::uint32_t joint = kNone;
     BodyJoint part = BodyJoint::spine;
     bool is_right = false;
-    std::uint8_t number = 0;  ///< of the joints that share the part, from below; 0: it is one
+    std::uint8_t number = 0;  ///< of the joints that share the part, from the trunk or from below; 0: it is one
     /// X, Y, Z of the limit's frame in model space at rest. Elbows, knees and toes: X along the bone that turns, Z the
     /// axis of the bend. The others: X along the bone. The right side's frame is the left one's mirrored: a right joint
     /// does the same as a left one with the signs of X and Y changed where it bends, of X and Z elsewhere.
@@ -92,7 +92,7 @@ public:
     /// Joints above one another that share a range; `next` follows the last one. Clips may give one of them all of the
     /// range. \param straight  the direction of a bone without a next one
     void add_column(const std::vector<std::uint32_t>& joints, std::uint32_t next, BodyJoint part,
-                    const Ranges& together, const glm::dvec3& straight, const glm::dvec3& z);
+                    const Ranges& together, const glm::dvec3& straight, std::optional<glm::dvec3> z = std::nullopt);
 
     /// What bends about the character's own axis from left to right, as toes do.
     void add_toes(std::uint32_t joint, const Ranges& typical);

@@ -403,7 +403,7 @@ void add_limits(Scene& scene, const RestFrames& rest, const ClipRotations& clips
         report.propose(line_of(scene, proposed, whose));
         if (proposed.beyond > 0.5) {
             report.warn("auto-rig: clips turn the joint by up to " + std::to_string(std::lround(proposed.beyond)) +
-                            " degrees more than such a joint can do, and leave its proposed limit",
+                            " degrees more than such a joint can turn, and leave its proposed limit",
                         name_of(scene, proposed.anatomy.joint));
         }
     }
@@ -445,6 +445,15 @@ void rig_human(Scene& scene, const RestFrames& rest, const ClipRotations& clips,
     add_limits(scene, rest, clips, find_anatomy(scene, rest, found, stance), stance.left, "a human's", claimed, report);
 }
 
+/// Whether names give both arms and legs of a body whose spine goes up from the legs.
+bool is_upright_human(const RestFrames& rest, const NamedHumanoid& named) {
+    for (const Bone bone : {Bone::left_lower_arm, Bone::right_lower_arm, Bone::left_lower_leg, Bone::right_lower_leg}) {
+        if (!named.bones.has(bone)) return false;
+    }
+    const std::optional<Posture> posture = Measurer(rest, named).measure();
+    return posture && posture->is_upright;
+}
+
 bool has_vrm_humanoid(const Scene& scene) {
     Report unheard;  // said when the extension's own chains were made
     return read_vrm_humanoid(scene, unheard).has_value();
@@ -455,8 +464,9 @@ bool has_vrm_humanoid(const Scene& scene) {
 void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report) {
     const RestFrames rest(scene);
     const ClipRotations clips(scene);
-    if (!has_vrm_humanoid(scene)) {
-        if (const std::optional<Quadruped> animal = find_quadruped(scene, rest, find_bound_joints(scene)))
+    const std::vector<bool> bound = find_bound_joints(scene);
+    if (!has_vrm_humanoid(scene) && !is_upright_human(rest, find_humanoid(scene, rest, bound))) {
+        if (const std::optional<Quadruped> animal = find_quadruped(scene, rest, bound))
             return rig_quadruped(scene, rest, clips, *animal, claimed, report);
     }
     rig_human(scene, rest, clips, claimed, report);

@@ -50,6 +50,9 @@ public:
           children_(list_children(scene, chosen)),
           chains_(find_mirrored_chains(scene, rest, with_ends(scene, chosen))) {
         measure_reach();
+        for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+            if (chosen[joint]) lowest_ = std::min(lowest_, rest.position(joint).y);
+        }
         for (const MirroredChains& chains : chains_) add_legs(chains);
     }
 
@@ -58,8 +61,8 @@ public:
         if (!standing) return std::nullopt;
         const auto& [a, b] = *standing;
         mark_trunk(a, b);
-        const std::vector<std::uint32_t> of_a = outgrowth(a);
-        const std::vector<std::uint32_t> of_b = outgrowth(b);
+        const std::vector<std::uint32_t> of_a = outgrowth(a, b);
+        const std::vector<std::uint32_t> of_b = outgrowth(b, a);
         const auto from_b_to_a = unit_across(a.root_place - b.root_place, unit(a.up + b.up).value_or(a.up));
         if (!from_b_to_a) return std::nullopt;
         const bool is_a_front = front_vote(a, of_a, b, of_b, *from_b_to_a) >= 0.0;
@@ -67,6 +70,7 @@ public:
     }
 
 private:
+    static constexpr double kGround = 0.25;     // of a leg: how far feet may be from one another, and from the ground
     static constexpr double kShortBone = 0.15;  // of a leg: a tip of the toes, or a joint to hang the leg on
 
     void measure_reach() {
@@ -110,6 +114,8 @@ private:
         const auto up = unit(legs.root_place - legs.foot_place);
         legs.anchor = common_ancestor(scene_, rest_, {chains.joints[0].front(), chains.joints[1].front()});
         if (!up || up->y < 0.7 || legs.anchor == kNone) return;
+        // Skirts, braids and coats hang, but do not stand.
+        if (legs.foot_place.y - lowest_ > kGround * legs.length) return;
         legs.up = *up;
         legs_.push_back(legs);
     }
@@ -120,11 +126,24 @@ private:
         for (std::size_t i = 0; i < legs_.size(); ++i) {
             for (std::size_t j = i + 1; j < legs_.size(); ++j) {
                 if (!stand_together(legs_[i], legs_[j])) continue;
-                if (standing) return std::nullopt;
-                standing = std::pair(legs_[i], legs_[j]);
+                const std::pair<LegPair, LegPair> found(legs_[i], legs_[j]);
+                if (standing && roots_of(*standing) != roots_of(found)) return std::nullopt;
+                // Four legs that are alike are mirrored in two planes; a trunk is longer than wide.
+                if (!standing || trunk_of(found) > trunk_of(*standing)) standing = found;
             }
         }
         return standing;
+    }
+
+    [[nodiscard]] static std::array<std::uint32_t, 4> roots_of(const std::pair<LegPair, LegPair>& legs) {
+        std::array<std::uint32_t, 4> roots{legs.first.chains->joints[0].front(), legs.first.chains->joints[1].front(),
+                                           legs.second.chains->joints[0].front(),
+                                           legs.second.chains->joints[1].front()};
+        std::sort(roots.begin(), roots.end());
+        return roots;
+    }
+    [[nodiscard]] static double trunk_of(const std::pair<LegPair, LegPair>& legs) {
+        return glm::distance(legs.first.root_place, legs.second.root_place);
     }
 
     [[nodiscard]] bool stand_together(const LegPair& a, const LegPair& b) const {
@@ -138,7 +157,7 @@ private:
         const double ratio = a.length / b.length;
         const bool is_level = std::abs(glm::dot(*trunk, *up)) < 0.5;
         const bool has_trunk = glm::distance(a.root_place, b.root_place) > 0.3 * length;
-        const bool is_one_ground = std::abs(glm::dot(a.foot_place - b.foot_place, *up)) < 0.25 * length;
+        const bool is_one_ground = std::abs(glm::dot(a.foot_place - b.foot_place, *up)) < kGround * length;
         const bool agrees = std::abs(glm::dot(a.chains->across, b.chains->across)) > 0.9 &&
                             std::abs(glm::dot(a.chains->across, *trunk)) < 0.3;
         return is_level && has_trunk && is_one_ground && agrees && ratio > 0.4 && ratio < 2.5;
@@ -159,13 +178,18 @@ private:
 
     /// What goes on from where the legs hang, in the middle between them: neck and head, or tail. Along the longest
     /// branch, to the head where a name says it.
-    [[nodiscard]] std::vector<std::uint32_t> outgrowth(const LegPair& legs) const {
+    [[nodiscard]] std::vector<std::uint32_t> outgrowth(const LegPair& legs, const LegPair& others) const {
+        const glm::dvec3 middle = 0.5 * (legs.root_place + others.root_place);
+        const auto is_on_this_side = [&](std::uint32_t joint) {
+            return glm::dot(rest_.position(joint) - middle, legs.root_place - others.root_place) > 0.0;
+        };
         std::vector<std::uint32_t> path;
         for (std::uint32_t at = legs.anchor; at != kNone;) {
             std::uint32_t next = kNone;
             double longest = -1.0;
             for (const std::uint32_t child : children_[at]) {
                 const bool may_curl = !path.empty() && children_[at].size() == 1;
+                if (path.empty() && !is_on_this_side(child)) continue;
                 if (is_trunk_[child] || (!may_curl && !is_in_middle(legs, child, children_[at]))) continue;
                 const double reach = is_head(child) ? std::numeric_limits<double>::max() : reach_to(at, child);
                 if (reach <= longest) continue;
@@ -187,7 +211,10 @@ private:
         };
         const double beside = side(joint);
         if (std::abs(beside) > 0.25 * legs.width) return false;
-        return std::none_of(siblings.begin(), siblings.end(), [&](std::uint32_t other) {
+        if (std::abs(beside) < 1e-3 * legs.width) return true;
+        constexpr std::size_t kMostSiblings = 64;  // that are compared
+        const auto end = siblings.begin() + static_cast<std::ptrdiff_t>(std::min(siblings.size(), kMostSiblings));
+        return std::none_of(siblings.begin(), end, [&](std::uint32_t other) {
             const glm::dvec3 mirrored = rest_.position(joint) - 2.0 * beside * legs.chains->across;
             return other != joint && glm::distance(rest_.position(other), mirrored) < 0.5 * std::abs(beside);
         });
@@ -281,6 +308,7 @@ private:
     const RestFrames& rest_;
     std::vector<std::vector<std::uint32_t>> children_;
     std::vector<MirroredChains> chains_;
+    double lowest_ = std::numeric_limits<double>::infinity();  ///< height of the lowest joint, metres
     std::vector<double> reach_;  ///< metres from the joint to the farthest one below it, along the bones
     std::vector<LegPair> legs_;
     std::vector<bool> is_trunk_;
@@ -295,6 +323,7 @@ constexpr Ranges kStraightJoint{{-15, 15}, {-10, 10}, {-90, 90}};
 constexpr Ranges kBack{{-30, 30}, {-45, 45}, {-45, 45}};  // all joints together
 constexpr Ranges kNeckOfAnimal{{-60, 60}, {-90, 90}, {-90, 90}};
 constexpr Ranges kTail{{-45, 45}, {-90, 90}, {-120, 120}};
+constexpr double kHardlyBent = 5.0;    // degrees: less shows no side to which a joint bends
 constexpr double kClearlyBent = 20.0;  // degrees
 
 }  // namespace
@@ -340,9 +369,9 @@ std::vector<JointAnatomy> find_anatomy(const RestFrames& rest, const Quadruped& 
     AnatomyBuilder joints(rest, stance);
     const auto head = found.neck.empty() ? kNone : found.neck.front();
     const bool goes_on = !found.spine.empty() && head != kNone && rest.is_below(head, found.spine.back());
-    joints.add_column(found.spine, goes_on ? head : kNone, BodyJoint::spine, kBack, stance.forward, stance.up);
-    joints.add_column(found.neck, kNone, BodyJoint::neck, kNeckOfAnimal, stance.forward, stance.up);
-    joints.add_column(found.tail, kNone, BodyJoint::tail, kTail, -stance.forward, stance.up);
+    joints.add_column(found.spine, goes_on ? head : kNone, BodyJoint::spine, kBack, stance.forward);
+    joints.add_column(found.neck, kNone, BodyJoint::neck, kNeckOfAnimal, stance.forward);
+    joints.add_column(found.tail, kNone, BodyJoint::tail, kTail, -stance.forward);
     for (const bool right : {false, true}) {
         joints.set_side(right);
         for (const bool hind : {false, true}) {
@@ -353,10 +382,10 @@ std::vector<JointAnatomy> find_anatomy(const RestFrames& rest, const Quadruped& 
             for (std::size_t i = 1; i + 1 < leg.size(); ++i) {
                 const glm::dvec3 end = rest.position(leg[i + 1]);
                 const auto bent = joints.bend_between(leg[i - 1], leg[i], end);
-                const bool is_bent = bent && glm::length(*bent) > kClearlyBent;
-                const glm::dvec3 towards = is_bent ? end - rest.position(leg[i]) : stance.forward;
+                const double angle = bent ? glm::length(*bent) : 0.0;
+                const glm::dvec3 towards = angle > kHardlyBent ? end - rest.position(leg[i]) : stance.forward;
                 joints.add_bend(leg[i - 1], leg[i], hind ? BodyJoint::hind_leg_joint : BodyJoint::front_leg_joint, end,
-                                towards, is_bent ? kBentJoint : kStraightJoint, i);
+                                towards, angle > kClearlyBent ? kBentJoint : kStraightJoint, i);
             }
         }
     }

@@ -387,7 +387,7 @@ TEST(AutoRig, LimitsHoldTheCharactersOwnClips) {
 TEST(AutoRig, LimitsAreWidenedByThirtyDegreesAndWhatGoesFurtherIsSaid) {
     const Rigged looks_back = rig(with_clip("head", 0, 110));
     EXPECT_NEAR(high(looks_back.constraint("head"), 0), 90, 1e-3);
-    ASSERT_EQ(warned(looks_back.report, "by up to 20 degrees more than such a joint can do"), 1u);
+    ASSERT_EQ(warned(looks_back.report, "by up to 20 degrees more than such a joint can turn"), 1u);
     for (const double degrees : {-170.0, -100.0, -40.0, 40.0, 100.0, 170.0}) {
         for (const char* name : {"leftUpperArm", "rightUpperLeg", "spine", "neck", "leftHand"}) {
             for (const int axis : {0, 1, 2}) {

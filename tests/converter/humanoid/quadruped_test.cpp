@@ -163,6 +163,55 @@ TEST(Quadruped, LegsBendInTheirPlaneToTheSideToWhichTheyAreBent) {
     }
 }
 
+TEST(Quadruped, AHumanInASkirtIsAHuman) {
+    HumanoidGltf character;
+    for (const double front : {0.12, -0.12}) {
+        for (const double side : {1.0, -1.0}) {
+            const std::string s = std::string("skirt") + (front > 0 ? "F" : "B") + (side > 0 ? "L" : "R");
+            character.add(s + "0", "hips", {side * 0.1, 0.95, front});
+            character.add(s + "1", s + "0", {side * 0.12, 0.75, 1.3 * front});
+            character.add(s + "2", s + "1", {side * 0.14, 0.55, 1.6 * front});
+        }
+    }
+    EXPECT_EQ(rig(character).ends("LeftLeg"), Ends("leftUpperLeg", "leftFoot"));
+    for (std::size_t i = 0; i < character.bones.size(); ++i)
+        character.names[character.bones[i].name] = "bone_" + std::to_string(i);
+    EXPECT_EQ(find_chain(rig(character).scene, "LeftFrontLeg"), nullptr);
+}
+
+TEST(Quadruped, AllMayHangOnOneJoint) {
+    HumanoidGltf dog;
+    dog.bones.clear();
+    dog.add("body", "", {0, 0.6, 0});
+    dog.add("neck", "body", {0, 0.7, 0.5});
+    dog.add("skull", "neck", {0, 0.8, 0.6});
+    dog.add("tail1", "body", {0, 0.6, -0.5});
+    dog.add("tail2", "tail1", {0, 0.5, -0.9});  // longer than the neck
+    for (const double side : {1.0, -1.0}) {
+        for (const double front : {0.4, -0.4}) {  // legs that are mirrored in two planes
+            const std::string s = std::string(front > 0 ? "front" : "hind") + (side > 0 ? "L" : "R");
+            dog.add(s + "1", "body", {side * 0.15, 0.55, front});
+            dog.add(s + "2", s + "1", {side * 0.15, 0.3, front});
+            dog.add(s + "3", s + "2", {side * 0.15, 0.03, front});
+        }
+    }
+    const Rigged rigged = rig(dog);
+    EXPECT_EQ(rigged.ends("LeftFrontLeg"), Ends("frontL1", "frontL3"));
+    EXPECT_EQ(rigged.ends("RightHindLeg"), Ends("hindR1", "hindR3"));
+    EXPECT_EQ(rigged.ends("Neck"), Ends("neck", "skull"));
+    EXPECT_EQ(rigged.ends("Tail"), Ends("tail1", "tail2"));
+}
+
+TEST(Quadruped, BonesThatStandAndJointsThatAreHardlyBentHaveLimits) {
+    HumanoidGltf dog = make_dog();
+    dog["neck"].position = {0, 0.8, 0.1};
+    dog["skull"].position = {0, 1.0, 0.1};
+    for (const char* side : {"left", "right"}) dog[side + std::string("Front2")].position.z = 0.32;  // bent backward
+    const Rigged rigged = rig(dog);
+    for (const char* name : {"chest", "neck", "leftFront2", "rightFront2"})
+        EXPECT_EQ(rigged.scene.joints[joint_named(rigged.scene, name)].constraints.size(), 1u) << name;
+}
+
 TEST(Quadruped, MoreLegsStandingAreSomethingElse) {
     HumanoidGltf insect = make_dog();
     for (const double side : {1.0, -1.0}) {

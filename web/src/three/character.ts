@@ -31,7 +31,7 @@ export interface BendyCharacter {
   joints: Object3D[];
   /** What is drawn. */
   parts: Part[];
-  /** Images that could not be loaded, with the reason: one line each. */
+  /** Of textures without an image: why each of their images could not be loaded, one line each. */
   warnings: readonly string[];
 }
 

@@ -54,7 +54,7 @@ export class Textures {
   readonly #options: ImageOptions;
   readonly #loaded = new Map<number, Promise<ThreeTexture | null>>();
   readonly #uses = new Map<string, Promise<ThreeTexture | null>>();
-  /** Why images are missing: one line each. */
+  /** Why textures have no image: one line for each image that was tried. */
   readonly warnings: string[] = [];
 
   constructor(model: Model, options: ImageOptions) {
@@ -115,19 +115,21 @@ export class Textures {
 
   /** The first of the images that can be decoded. */
   async #decode(source: Texture): Promise<ThreeTexture | null> {
+    const reasons: string[] = [];
     for (const image of source.images) {
       try {
         const texture = await this.#decodeImage(image);
-        if (texture === null) continue;
+        if (texture === null) throw new Error(image.media === 'ktx2' ? 'KTX2 images need a KTX2Loader' : 'it has no bytes and no link');
         if (image.media !== 'other') texture.userData['mimeType'] = `image/${image.media}`;
         return texture;
       } catch (error) {
         const why = error instanceof Error ? error.message : String(error);
         const name = image.uri === null || /^data:/i.test(image.uri) ? '' : ` ${image.uri}`;
-        this.warnings.push(`the image${name} of texture ${source.number} cannot be loaded: ${why}`);
-        console.warn(`BendyLoader: ${this.warnings.at(-1)}`);
+        reasons.push(`the image${name} of texture ${source.number} cannot be loaded: ${why}`);
+        console.warn(`BendyLoader: ${reasons.at(-1)}`);
       }
     }
+    this.warnings.push(...reasons);
     return null;
   }
 
