@@ -1,5 +1,7 @@
 #include "find_humanoid.h"
 
+#include "mirrored_chains.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 
 #include "humanoid.h"
 #include "mirrored_chains.h"
+#include "space.h"
 
 #include <glm/geometric.hpp>
 
