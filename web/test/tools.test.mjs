@@ -61,7 +61,7 @@ async function compare(file, options, args) {
   const output = join(folder, `${made++}.bendy`);
   const { status, stdout } = spawnSync(program, ['convert', name, '-o', output, '--json', ...args], { cwd: root, maxBuffer: 2 ** 28 });
   const what = `${relative(corpus, file)} ${args.join(' ')}`;
-  const expected = JSON.parse(stdout);
+  const expected = inJavaScript(JSON.parse(stdout));
   if (status === 0) {
     const conversion = await tools.convert(source, { main: name, ...options });
     assertSameBytes(conversion.bytes, read(output), what);
@@ -78,6 +78,13 @@ async function compare(file, options, args) {
     return true;
   });
   return false;
+}
+
+/** What the program says, with options named as JavaScript has them. */
+function inJavaScript(said) {
+  if (typeof said === 'string') return said.replace(/(?<=[ (])--([a-z]+(?:-[a-z]+)*)/g, (_, name) => name.replace(/-(\w)/g, (_, letter) => letter.toUpperCase()));
+  if (Array.isArray(said)) return said.map(inJavaScript);
+  return said !== null && typeof said === 'object' ? Object.fromEntries(Object.entries(said).map(([key, value]) => [key, inJavaScript(value)])) : said;
 }
 
 const ways = [
