@@ -17,7 +17,9 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <iomanip>
+#include <map>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -214,27 +216,25 @@ void run(ConvertArguments arguments) {
 
 /// The options of convert_options.def, and --exact.
 void add_options(CLI::App& command, ConvertArguments& arguments) {
+    std::map<std::string, CLI::Option*, std::less<>> added;  // CLI11's own look-up ends the program without memory
     visit_options(arguments, [&](const ConvertOption& option, auto& value) {
+        CLI::Option*& place = added[std::string(option.name)];
         if (option.name == "root") {
-            add_root(command, arguments.root);
-            return;
-        }
-        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, option::flag>) {
-            command.add_flag(option.flag(), value, option.full_help());
+            place = add_root(command, arguments.root);
+        } else if constexpr (std::is_same_v<std::decay_t<decltype(value)>, option::flag>) {
+            place = command.add_flag(option.flag(), value, option.full_help());
         } else {
-            CLI::Option* const added = command.add_option(option.flag(), value, option.full_help());
-            if (!option.values.empty()) added->check(CLI::IsMember(words_of(option.values)))->capture_default_str();
+            place = command.add_option(option.flag(), value, option.full_help());
+            if (!option.values.empty()) place->check(CLI::IsMember(words_of(option.values)))->capture_default_str();
         }
     });
-    command.add_flag("--exact", arguments.exact, "keep every number exactly; this is the default");
+    added["exact"] = command.add_flag("--exact", arguments.exact, "keep every number exactly; this is the default");
     visit_options(arguments, [&](const ConvertOption& option, const auto&) {
-        for (const std::string& other : words_of(option.excludes)) {
-            const ConvertOption excluded{other, {}, {}, {}};
-            command.get_option(option.flag())->excludes(command.get_option(excluded.flag()));
-        }
+        for (const std::string& other : words_of(option.excludes))
+            added.at(std::string(option.name))->excludes(added.at(other));
     });
-    command.get_option("--ticks-per-second")->check(CLI::PositiveNumber);
-    command.get_option("--max-error")->check([](const std::string& text) {
+    added.at("ticks_per_second")->check(CLI::PositiveNumber);
+    added.at("max_error")->check([](const std::string& text) {
         const auto bound = converter::parse_error_bound(text);
         return bound ? std::string() : bound.error();
     });
