@@ -491,7 +491,7 @@ void collapse_vertices(Scene& scene, const Progress& progress) {
     std::vector<Sequence> sequences;
     sequences.reserve(surfaces.size());
     for (std::size_t mesh = 0; mesh < surfaces.size(); ++mesh) {
-        const double vertices = static_cast<double>(scene.meshes[mesh].positions.size());
+        const auto vertices = static_cast<double>(scene.meshes[mesh].positions.size());
         sequences.push_back(find_sequence(scene.meshes[mesh], shapes[mesh], std::move(surfaces[mesh]),
                                           part_of(progress, done / all, (done + vertices) / all)));
         done += vertices;
