@@ -45,7 +45,7 @@ Range divided(const Range& range, double by) {
     return {range.low / by, range.high / by};
 }
 
-/// As far as clips may widen a range: what they do beyond is a slip, or no body's.
+/// The farthest that clips may widen a range: larger angles are taken for mistakes in the clip.
 Ranges widened(const Ranges& ranges) {
     constexpr double kMore = 30.0;  // degrees
     const auto wider = [](const Range& range) { return Range{range.low - kMore, range.high + kMore}; };

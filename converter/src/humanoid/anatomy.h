@@ -55,7 +55,7 @@ constexpr bool bends(BodyJoint joint) {
            joint == BodyJoint::front_leg_joint || joint == BodyJoint::hind_leg_joint;
 }
 
-/// What a body of the kind could do with a joint, at this character's joint, as it rests.
+/// The range of motion of one of the character's joints, relative to its rest pose.
 struct JointAnatomy {
     std::uint32_t joint = kNone;
     BodyJoint part = BodyJoint::spine;
@@ -85,16 +85,17 @@ public:
                    const Ranges& typical, std::optional<glm::dvec3> neutral = std::nullopt, std::size_t number = 0);
 
     /// The bend between two bones of a limb, of which the second ends at `end`. At rest it is bent by some angle
-    /// already. \param towards  to which side a human, or such an animal, bends it
+    /// already. \param towards  the side to which it bends
     void add_bend(std::uint32_t upper, std::uint32_t lower, BodyJoint part, std::optional<glm::dvec3> end,
                   glm::dvec3 towards, const Ranges& typical, std::size_t number = 0);
 
     /// Joints above one another that share a range; `next` follows the last one. Clips may give one of them all of the
-    /// range. \param straight  the direction of a bone without a next one
+    /// range. \param straight  the direction of a bone without a next one \param z  as of add_swing; if not given, at
+    /// right angles to the bone and to the character's left-right axis
     void add_column(const std::vector<std::uint32_t>& joints, std::uint32_t next, BodyJoint part,
                     const Ranges& together, const glm::dvec3& straight, std::optional<glm::dvec3> z = std::nullopt);
 
-    /// What bends about the character's own axis from left to right, as toes do.
+    /// Adds a joint that bends about the character's left-right axis, as toes do.
     void add_toes(std::uint32_t joint, const Ranges& typical);
 
     /// How the second bone is turned from the first at rest: axis in model space times degrees.

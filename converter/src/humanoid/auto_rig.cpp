@@ -72,20 +72,15 @@ std::string part_of(const JointAnatomy& anatomy) {
 }
 
 std::string way_of(const glm::dvec3& way, const Stance& stance) {
-    const std::array<std::pair<double, const char*>, 6> ways{{{glm::dot(way, stance.forward), "forward"},
-                                                              {-glm::dot(way, stance.forward), "backward"},
-                                                              {glm::dot(way, stance.up), "up"},
-                                                              {-glm::dot(way, stance.up), "down"},
-                                                              {glm::dot(way, stance.left), "left"},
-                                                              {-glm::dot(way, stance.left), "right"}}};
-    const auto first =
-        std::max_element(ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::string words = first->second;
-    const std::pair<double, const char*>* second = nullptr;
-    for (const auto& candidate : ways) {
-        if (&candidate != first && (second == nullptr || candidate.first > second->first)) second = &candidate;
-    }
-    if (second->first > 0.5) words += std::string(" and ") + second->second;
+    std::array<std::pair<double, const char*>, 6> ways{{{glm::dot(way, stance.forward), "forward"},
+                                                        {-glm::dot(way, stance.forward), "backward"},
+                                                        {glm::dot(way, stance.up), "up"},
+                                                        {-glm::dot(way, stance.up), "down"},
+                                                        {glm::dot(way, stance.left), "left"},
+                                                        {-glm::dot(way, stance.left), "right"}}};
+    std::stable_sort(ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::string words = ways[0].second;
+    if (ways[1].first > 0.5) words += std::string(" and ") + ways[1].second;
     return words;
 }
 
@@ -184,31 +179,24 @@ void complete(const Scene& scene, const RestFrames& rest, const ClipRotations& c
     find_trunk_by_shape(scene, rest, chosen, bones);
 }
 
-NamedHumanoid find(const Scene& scene, const RestFrames& rest, const ClipRotations& clips) {
-    Report unheard;  // said when the extension's own chains were made
-    if (const std::optional<VrmHumanoid> vrm = read_vrm_humanoid(scene, unheard)) {
-        NamedHumanoid found;
-        found.bones = vrm->bones;
-        return found;
-    }
-    const auto find_among = [&](const std::vector<bool>& chosen) {
-        NamedHumanoid found = find_humanoid(scene, rest, chosen);
-        complete(scene, rest, clips, chosen, found);
-        return found;
-    };
-    const auto has_all = [](const Humanoid& bones) {
-        return bones.has(Bone::left_lower_arm) && bones.has(Bone::right_lower_arm) && bones.has(Bone::left_lower_leg) &&
-               bones.has(Bone::right_lower_leg);
-    };
-    NamedHumanoid found = find_among(find_bound_joints(scene));
-    if (has_all(found.bones)) return found;
+bool has_all_limbs(const Humanoid& bones) {
+    return bones.has(Bone::left_lower_arm) && bones.has(Bone::right_lower_arm) && bones.has(Bone::left_lower_leg) &&
+           bones.has(Bone::right_lower_leg);
+}
+
+/// Adds to what names say of the bound joints what the shape says; where that is not enough, looks at all joints.
+NamedHumanoid find_the_rest(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
+                            const std::vector<bool>& bound, NamedHumanoid named) {
+    complete(scene, rest, clips, bound, named);
+    if (has_all_limbs(named.bones)) return named;
     // A file may bring a part of its character's meshes only.
     std::vector<bool> all(scene.joints.size(), true);
     for (const Mesh& mesh : scene.meshes) {
-        if (mesh.joint != kNone && mesh.influences > 0) all[mesh.joint] = false;  // a place for a mesh, no bone
+        if (mesh.joint != kNone && mesh.influences > 0) all[mesh.joint] = false;  // a place for a mesh, not a bone
     }
-    NamedHumanoid among_all = find_among(all);
-    return has_all(among_all.bones) ? among_all : found;
+    NamedHumanoid among_all = find_humanoid(scene, rest, all);
+    complete(scene, rest, clips, all, among_all);
+    return has_all_limbs(among_all.bones) ? among_all : named;
 }
 
 /// How a character stands.
@@ -416,9 +404,8 @@ void rig_quadruped(Scene& scene, const RestFrames& rest, const ClipRotations& cl
     add_limits(scene, rest, clips, find_anatomy(rest, animal), animal.stance.left, "an animal's", claimed, report);
 }
 
-void rig_human(Scene& scene, const RestFrames& rest, const ClipRotations& clips, const std::vector<bool>& claimed,
-               Report& report) {
-    const NamedHumanoid found = find(scene, rest, clips);
+void rig_human(Scene& scene, const RestFrames& rest, const ClipRotations& clips, const NamedHumanoid& found,
+               const std::vector<bool>& claimed, Report& report) {
     const std::optional<Posture> posture = Measurer(rest, found).measure();
     if (!posture) {
         return report.warn(
@@ -447,16 +434,9 @@ void rig_human(Scene& scene, const RestFrames& rest, const ClipRotations& clips,
 
 /// Whether names give both arms and legs of a body whose spine goes up from the legs.
 bool is_upright_human(const RestFrames& rest, const NamedHumanoid& named) {
-    for (const Bone bone : {Bone::left_lower_arm, Bone::right_lower_arm, Bone::left_lower_leg, Bone::right_lower_leg}) {
-        if (!named.bones.has(bone)) return false;
-    }
+    if (!has_all_limbs(named.bones)) return false;
     const std::optional<Posture> posture = Measurer(rest, named).measure();
     return posture && posture->is_upright;
-}
-
-bool has_vrm_humanoid(const Scene& scene) {
-    Report unheard;  // said when the extension's own chains were made
-    return read_vrm_humanoid(scene, unheard).has_value();
 }
 
 }  // namespace
@@ -464,12 +444,20 @@ bool has_vrm_humanoid(const Scene& scene) {
 void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report) {
     const RestFrames rest(scene);
     const ClipRotations clips(scene);
+    Report unheard;  // said when the extension's own chains were made
+    if (const std::optional<VrmHumanoid> vrm = read_vrm_humanoid(scene, unheard)) {
+        NamedHumanoid found;
+        found.bones = vrm->bones;
+        return rig_human(scene, rest, clips, found, claimed, report);
+    }
     const std::vector<bool> bound = find_bound_joints(scene);
-    if (!has_vrm_humanoid(scene) && !is_upright_human(rest, find_humanoid(scene, rest, bound))) {
+    NamedHumanoid named = find_humanoid(scene, rest, bound);
+    if (!is_upright_human(rest, named)) {
         if (const std::optional<Quadruped> animal = find_quadruped(scene, rest, bound))
             return rig_quadruped(scene, rest, clips, *animal, claimed, report);
     }
-    rig_human(scene, rest, clips, claimed, report);
+    named = find_the_rest(scene, rest, clips, bound, named);
+    rig_human(scene, rest, clips, named, claimed, report);
 }
 
 void add_vrm_chains(Scene& scene, Report& report) {

@@ -456,7 +456,7 @@ private:
                 moved.high > typical.high ? moved.high + kMargin : moved.high};
     }
 
-    /// What of the range is inside the widest one; says in the constraint how much is not.
+    /// Cuts a range to the widest one, and records in the constraint how much was cut off.
     [[nodiscard]] static Range cut(const Range& range, const Range& widest, ProposedConstraint& constraint) {
         constraint.beyond = std::max({constraint.beyond, widest.low - range.low, range.high - widest.high});
         return {std::max(range.low, widest.low), std::min(range.high, widest.high)};

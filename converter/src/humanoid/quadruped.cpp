@@ -14,7 +14,7 @@
 namespace bendy::converter {
 namespace {
 
-/// Of mirrored chains, the joints from where a leg leaves the trunk to its foot.
+/// The part of mirrored chains from where a leg leaves the trunk to its foot.
 struct LegPair {
     const MirroredChains* chains = nullptr;
     std::size_t root = 0, foot = 0;
@@ -177,8 +177,8 @@ private:
         }
     }
 
-    /// What goes on from where the legs hang, in the middle between them: neck and head, or tail. Along the longest
-    /// branch, to the head where a name says it.
+    /// The branch that continues from the joint that carries the legs, in the middle between them: neck and head, or
+    /// tail. It follows the longest branch, and ends at the head if a name says which joint that is.
     [[nodiscard]] std::vector<std::uint32_t> outgrowth(const LegPair& legs, const LegPair& others) const {
         const glm::dvec3 middle = 0.5 * (legs.root_place + others.root_place);
         const auto is_on_this_side = [&](std::uint32_t joint) {
@@ -297,7 +297,7 @@ private:
         return spine;
     }
 
-    /// A head that no name tells is where the neck spreads, into eyes, ears and jaw, or its last joint.
+    /// Without a name, the head is the joint where the neck branches into eyes, ears and jaw, or else its last joint.
     void cut_at_head(std::vector<std::uint32_t>& neck) const {
         if (neck.empty() || is_head(neck.back())) return;
         const auto head = std::find_if(neck.begin() + 1, neck.end(),
@@ -317,7 +317,7 @@ private:
 
 // Typical ranges. Legs: Jaegger, Marcellin-Little & Levine, Reliability of goniometry in Labrador Retrievers (2002):
 //   bends of elbow 15 to 144, carpus -16 to 148, stifle 18 to 138, hock 16 to 141; shoulder and hip turn by 108 and 112
-//   in all. The others are a rig's play, no animal's, and about the rest pose.
+//   in all. The other ranges are choices, relative to the rest pose.
 constexpr Ranges kLeg{{-20, 20}, {-60, 60}, {-20, 30}};         // Y: forward and back; Z forward: + outward
 constexpr Ranges kBentJoint{{-15, 15}, {-10, 10}, {-15, 150}};  // Z the bend
 constexpr Ranges kStraightJoint{{-15, 15}, {-10, 10}, {-90, 90}};
