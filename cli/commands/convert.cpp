@@ -159,17 +159,6 @@ void convert_file(const ConvertArguments& arguments, NamedBy named) {
     if (!arguments.quiet && report.compact) print_compact(*report.compact, summary_stream(arguments.output));
 }
 
-/// What stands between spaces.
-std::vector<std::string> words_of(std::string_view text) {
-    std::vector<std::string> words;
-    for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = std::min(text.find(' ', begin), text.size());
-        words.emplace_back(text.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return words;
-}
-
 /// What one run can do with standard input and output, and with names.
 void check_names(const ConvertArguments& arguments, bool is_batch) {
     const bool has_dash = std::any_of(arguments.inputs.begin(), arguments.inputs.end(), is_dash);

@@ -57,8 +57,8 @@ struct ReachGoal {
 };
 
 /// The chains and targets that are asked for. CHAIN is a chain's name or number, see find_by_key, or the name of
-/// the joint that it moves. Fails and lists the chains if there is no such chain; throws CLI::ValidationError if the
-/// text is not a target.
+/// the joint that it moves. Fails with a list of the chains if none matches; throws CLI::ValidationError if the text
+/// is not a target.
 std::vector<ReachGoal> find_goals(const ReachRequest& request, const std::filesystem::path& file, const Model& model);
 
 /// Nothing where a chain could not be moved: its numbers leave a float's range.

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 // The options of `convert` that decide which bytes come out: convert_options.def, for all interfaces.
 namespace bendy::cli {
@@ -28,7 +29,12 @@ struct ConvertOption {
     [[nodiscard]] std::string flag() const;
     /// With kByKey in it.
     [[nodiscard]] std::string full_help() const;
+    /// What is wrong with a value of a word: `images must be embed or link`; empty if nothing is.
+    [[nodiscard]] std::string why_not(std::string_view value) const;
 };
+
+/// Splits a text at spaces.
+std::vector<std::string> words_of(std::string_view text);
 
 /// The values of those options.
 struct ConvertChoices {

@@ -355,8 +355,6 @@ def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, s
     Raises ConversionError with the place in the source, FileNotFoundError, FileExistsError unless overwrite, ValueError.
     """
     given = dict(locals())
-    if images not in ("embed", "link"):
-        raise ValueError("images must be embed or link")
     if output is not None:
         _claim_bendy(output, overwrite, [source, rig, texture])
     if isinstance(source, (str, _os.PathLike)):

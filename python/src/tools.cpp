@@ -78,6 +78,9 @@ cli::ConvertArguments arguments_of(const py::dict& options) {
         } catch (const py::cast_error&) {
             throw py::type_error(std::string(option.name) + " has the wrong type");
         }
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, cli::option::word>) {
+            if (const std::string why = option.why_not(value); !why.empty()) throw py::value_error(why);
+        }
     });
     if (known != options.size()) throw py::type_error("convert has no such option");
     return arguments;

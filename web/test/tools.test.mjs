@@ -283,6 +283,11 @@ test('convert takes the options of the program', () => {
   assert.deepEqual(typed.filter((name) => !own.includes(name)).sort(), names.filter((name) => !['root', 'maxError'].includes(name)).sort());
 });
 
+test('a wrong word of an option is refused', async () => {
+  const source = read(join(repository, 'examples/tentacle.glb'));
+  await assert.rejects(tools.convert(source, { images: 'embd' }), { code: 'BAD_ARGUMENT', message: 'images must be embed or link' });
+});
+
 test('progress is told, and what it throws comes out', async () => {
   const shares = [];
   await tools.convert(read(examples[0]), { compact: true, progress: (share) => shares.push(share) });

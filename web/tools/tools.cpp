@@ -144,6 +144,9 @@ Json run_convert(const Json& request, Made& made) {
         } else {
             given->get_to(value);
         }
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, cli::option::word>) {
+            if (const std::string why = option.why_not(value); !why.empty()) refuse(why);
+        }
     });
     arguments.root = "/";  // all files here are the caller's
     if (!arguments.max_error.empty()) {
