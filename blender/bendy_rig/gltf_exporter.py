@@ -84,7 +84,7 @@ def is_in_track(animation):
 
 
 def value_of(owner, path):
-    """A list of floats; None for what is no longer there."""
+    """The value as a list of floats, or None if the path no longer exists."""
     try:
         value = owner.path_resolve(path)
     except ValueError:

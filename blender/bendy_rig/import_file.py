@@ -183,7 +183,7 @@ def finish_clips(context, file, imported):
 
 
 def add_still_actions(file, by_owner, imported):
-    """What a clip leaves alone and others move gets an action that holds it at rest. Blender would leave it as the last clip had it."""
+    """Makes an action that keeps an object at rest for each clip that does not move it: Blender would leave it in the pose of the last clip."""
     clips = [(number, clip) for number, clip in enumerate(reversed(file.clips)) if clip.actions]
     if len(clips) * len(by_owner) > MOST_ACTIONS:
         imported.notes.append(('objects that a clip does not move stay as the clip before has left them', [f'{len(by_owner)} objects']))

@@ -9,7 +9,7 @@
 namespace bendy::converter {
 
 void Report::warn(std::string message, std::string place, std::uint64_t count) {
-    message = with_option_names(message, style_);
+    if (style_ != OptionStyle::program) message = with_option_names(message, style_);
     const auto [known, is_new] = place_of_.try_emplace(message, warnings_.size());
     if (!is_new) {
         warnings_[known->second].count += count;

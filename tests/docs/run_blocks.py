@@ -162,7 +162,7 @@ class Runner:
         self.run(self.parts[0], [*shlex.split(self.options.compile), "-c", str(source), "-o", "/dev/null"])
 
     def check_figures(self, page, text):
-        """Of the comments of a page: what their commands print, and the page says."""
+        """Checks that the figures in a page's comments are in the page, and in what their commands print."""
         said = " ".join(re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL).split())
         for found in FIGURES.finditer(text):
             place = f"{page}:{text.count(chr(10), 0, found.start()) + 1}"

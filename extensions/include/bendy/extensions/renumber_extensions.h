@@ -11,7 +11,7 @@
 // glTF extensions that are kept as JSON (EXTN), and the numbers in them: references.def.
 namespace bendy::extensions {
 
-/// Of arrays and objects in each other: what copies or prints JSON recurses.
+/// The deepest nesting of arrays and objects: copying and printing JSON recurses.
 inline constexpr std::size_t kMostLevels = 128;
 
 /// What a number in an extension means.
@@ -47,7 +47,7 @@ struct Renumbered {
 
 /// Puts the new numbers into extensions, and takes out the entries whose things are not there any more. Of a material
 /// also the texture of each "...Texture": {"index": ...}, whatever the extension. \param json  an object of extensions
-/// by name. Nothing if it is no such object, or is nested deeper than kMostLevels
+/// by name. Returns nothing if it is not an object, or is nested deeper than kMostLevels
 std::optional<Renumbered> renumber_extensions(std::string_view json, Host host, const NewNumber& now);
 
 /// True if the meaning of all numbers in an extension of that name is known.
