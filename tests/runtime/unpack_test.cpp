@@ -1,5 +1,6 @@
 #include "play/unpack.h"
 
+#include "kernels/flush_denormals.h"
 #include "plan/joint_blocks.h"
 #include "plan/unpack_plan.h"
 
@@ -158,6 +159,20 @@ TEST(Unpack, TimesOutsideAreHeldAndNoTimeIsTheStart) {
         EXPECT_LT(difference(played(kernel, view, 1e30f), played(kernel, view, end + 1.0f)), 1e-9);
         EXPECT_LT(difference(played(kernel, view, std::numeric_limits<float>::quiet_NaN()), played(kernel, view, 0.5f)),
                   1e-9);
+    }
+}
+
+// Found by fuzzing: `sample` takes denormal numbers for zero, and took such a rate for a table of times.
+TEST(Unpack, ADenormalRateIsNotATableOfTimes) {
+    PackedSamples samples = make_samples(kJoints, 20, 16);
+    samples.frame_rate = std::numeric_limits<float>::denorm_min();
+    const auto payload = write_packed(samples).value();
+    const PackedView view = view_of(payload);
+    const auto start = played(unpack_plain, view, samples.start);
+    const FlushDenormals flush;
+    for (const Unpacking& kernel : each_kernel()) {
+        for (const float seconds : {0.0f, 1.0f, 1e9f})
+            EXPECT_LT(difference(played(kernel, view, seconds), start), 2e-6) << kernel.name;
     }
 }
 

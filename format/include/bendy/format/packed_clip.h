@@ -59,10 +59,10 @@ struct PackedView {
     PackRecord record;
     Bytes payload;
     std::array<PackedList, kPackedLists> lists;
-    std::uint64_t times_at = 0;          ///< offset of the times, f32 per frame, if the rate is 0
+    std::uint64_t times_at = 0;          ///< offset of the times, f32 per frame, unless is_even()
     std::uint32_t segments = 0;          ///< 0 if no track is animated
     std::uint32_t animated_numbers = 0;  ///< total number of components of all animated tracks
-    std::uint64_t offsets_at = 0;        ///< offset of u32 per segment, if there are several
+    std::uint64_t offsets_at = 0;        ///< offset of u32 per segment, if there are several; the end of the times
     std::uint64_t first_segment = 0;     ///< offset of segment 0
     std::uint64_t table_bytes = 0;       ///< size of a segment's widths and bases
 
@@ -70,8 +70,9 @@ struct PackedView {
     [[nodiscard]] bool animates(std::uint32_t joint, TrackPath path) const;
     /// Returns the time of a frame in seconds on the clip's time line.
     [[nodiscard]] double time_of(std::uint32_t frame) const;
-    /// True if the frames are evenly spaced.
-    [[nodiscard]] bool is_even() const { return record.frame_rate != 0.0f; }
+    /// True if the frames are evenly spaced: no times are stored. Decided once, by read_packed: a denormal rate is not 0,
+    /// but compares equal to it in a thread that takes denormal numbers for zero.
+    [[nodiscard]] bool is_even() const { return times_at == offsets_at; }
 };
 
 /// A position between two frames: `frame` and, if fraction is not 0, the one after it.
