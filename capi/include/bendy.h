@@ -115,15 +115,16 @@ typedef struct bendy_open_options {
 /* Maps a file into memory and checks it. Returns NULL, and the first fault, if the file is not valid. Unless `copied`
  * is set, the file must not be modified in place while it is open (replacing it is allowed, except on Windows, where it
  * fails). `path` is UTF-8 on Windows, and in the system's encoding elsewhere. `options` may be NULL. */
-BENDY_API bendy_model* bendy_open(const char* path, const bendy_open_options* options, bendy_error* error);
+BENDY_API bendy_model* bendy_open(const char* path, const bendy_open_options* options /* or NULL */,
+                                  bendy_error* error);
 /* As bendy_open, for `size` bytes in memory, which are copied. */
-BENDY_API bendy_model* bendy_open_copy(const void* bytes, size_t size, const bendy_open_options* options,
-                                       bendy_error* error);
+BENDY_API bendy_model* bendy_open_copy(const void* bytes /* or NULL if `size` is 0 */, size_t size,
+                                       const bendy_open_options* options /* or NULL */, bendy_error* error);
 /* As bendy_open_copy, without the copy: the bytes must start on a 16-byte boundary (BENDY_BAD_ARGUMENT if not), and
  * must stay unchanged and allocated until the model is closed and the last of its poses and levels of detail is
  * freed. */
-BENDY_API bendy_model* bendy_open_borrowed(const void* bytes, size_t size, const bendy_open_options* options,
-                                           bendy_error* error);
+BENDY_API bendy_model* bendy_open_borrowed(const void* bytes /* or NULL if `size` is 0 */, size_t size,
+                                           const bendy_open_options* options /* or NULL */, bendy_error* error);
 /* Closes a model. Does nothing for NULL. */
 BENDY_API void bendy_close(bendy_model* model);
 
@@ -364,7 +365,7 @@ BENDY_API const char* bendy_file_extras(const bendy_model* model);
 BENDY_API bendy_status bendy_get_joint(const bendy_model* model, uint32_t joint, bendy_joint* out, bendy_error* error);
 BENDY_API bendy_status bendy_get_clip(const bendy_model* model, uint32_t clip, bendy_clip* out, bendy_error* error);
 BENDY_API bendy_status bendy_get_chain(const bendy_model* model, uint32_t chain, bendy_chain* out, bendy_error* error);
-BENDY_API bendy_status bendy_get_morph_target(const bendy_model* model, uint32_t target, bendy_morph_target* out,
+BENDY_API bendy_status bendy_get_morph_target(const bendy_model* model, uint32_t morph_target, bendy_morph_target* out,
                                               bendy_error* error);
 BENDY_API bendy_status bendy_get_mesh(const bendy_model* model, uint32_t mesh, bendy_mesh* out, bendy_error* error);
 BENDY_API bendy_status bendy_get_submesh(const bendy_model* model, uint32_t submesh, bendy_submesh* out,
@@ -380,7 +381,8 @@ BENDY_API bendy_status bendy_get_image(const bendy_model* model, uint32_t textur
 /* ---- Geometry -------------------------------------------------------------------------------------------- */
 
 /* Copies the index list of a mesh. `count` is the capacity of `indices`, at least bendy_mesh.indices. */
-BENDY_API bendy_status bendy_get_indices(const bendy_model* model, uint32_t mesh, uint32_t* indices, size_t count,
+BENDY_API bendy_status bendy_get_indices(const bendy_model* model, uint32_t mesh,
+                                         uint32_t* indices /* or NULL if there are none */, size_t count,
                                          bendy_error* error);
 /* Copies a set of texture coordinates, u and v per vertex: v = 0 is the top edge of the image. `count` is the
  * capacity of `uv` in floats, at least 2 * bendy_mesh.vertices. */
@@ -395,11 +397,12 @@ BENDY_API bendy_status bendy_get_influences(const bendy_model* model, uint32_t m
 /* Copies the bind palette of a mesh: for each bone, its joint and its inverse bind matrix (16 floats), from mesh space
  * to joint space at bind time. Either array may be NULL: not wanted. `count` is the capacity of each in bones, at least
  * bendy_mesh.bones. Fails for a rigid mesh. */
-BENDY_API bendy_status bendy_get_bind_palette(const bendy_model* model, uint32_t mesh, uint32_t* joints,
-                                              float* inverse_bind, size_t count, bendy_error* error);
+BENDY_API bendy_status bendy_get_bind_palette(const bendy_model* model, uint32_t mesh, uint32_t* joints /* or NULL */,
+                                              float* inverse_bind /* or NULL */, size_t count, bendy_error* error);
 /* Copies, for each vertex of a rigid mesh, the joint that moves it, or BENDY_NONE. `count` is the capacity of `joints`,
  * at least bendy_mesh.vertices. Fails for a mesh that is not rigid. */
-BENDY_API bendy_status bendy_get_movers(const bendy_model* model, uint32_t mesh, uint32_t* joints, size_t count,
+BENDY_API bendy_status bendy_get_movers(const bendy_model* model, uint32_t mesh,
+                                        uint32_t* joints /* or NULL if there are none */, size_t count,
                                         bendy_error* error);
 
 /* A stream: one attribute of a mesh's vertices, or its index list. The streams of a mesh are numbered from 0. */
@@ -441,8 +444,8 @@ typedef struct bendy_stream {
 /* Returns the number of streams of a mesh; 0 for NULL or a mesh that does not exist. */
 BENDY_API uint32_t bendy_stream_count(const bendy_model* model, uint32_t mesh);
 /* Returns the index of the mesh's stream of that kind (a bendy_stream_kind) and set; BENDY_NONE if there is none. */
-BENDY_API uint32_t bendy_find_stream(const bendy_model* model, uint32_t mesh, uint32_t kind, uint32_t set,
-                                     bendy_error* error);
+BENDY_API uint32_t bendy_find_stream(const bendy_model* model, uint32_t mesh, uint32_t kind /* a bendy_stream_kind */,
+                                     uint32_t set, bendy_error* error);
 BENDY_API bendy_status bendy_get_stream(const bendy_model* model, uint32_t mesh, uint32_t stream, bendy_stream* out,
                                         bendy_error* error);
 /* Copies the numbers of a stream, decoded. `count` is the capacity of `numbers`, at least elements * components. */
@@ -456,16 +459,18 @@ BENDY_API bendy_status bendy_get_integers(const bendy_model* model, uint32_t mes
  * in the mesh, ascending, and 3 floats per displaced vertex for positions (metres), normals and tangents, zero where
  * the target has none. Each array may be NULL: not wanted. `count` is the capacity of each in vertices, at least
  * bendy_morph_target.vertices. */
-BENDY_API bendy_status bendy_get_displacements(const bendy_model* model, uint32_t target, uint32_t* vertices,
-                                               float* positions, float* normals, float* tangents, size_t count,
-                                               bendy_error* error);
+BENDY_API bendy_status bendy_get_displacements(const bendy_model* model, uint32_t morph_target,
+                                               uint32_t* vertices /* or NULL */, float* positions /* or NULL */,
+                                               float* normals /* or NULL */, float* tangents /* or NULL */,
+                                               size_t count, bendy_error* error);
 /* Applies morph targets to a mesh without skinning it: its vertices plus the weighted displacements, in mesh space.
  * Normals and tangents are not normalised. `weights` has one number per target of the mesh; NULL: all 0. Each array may
  * be NULL: not wanted; positions and normals have 3 floats per vertex, tangents 4. `count` is the number of vertices to
  * write, the first ones, at most bendy_mesh.vertices. */
-BENDY_API bendy_status bendy_apply_morph_targets(const bendy_model* model, uint32_t mesh, const float* weights,
-                                                 float* positions, float* normals, float* tangents, size_t count,
-                                                 bendy_error* error);
+BENDY_API bendy_status bendy_apply_morph_targets(const bendy_model* model, uint32_t mesh,
+                                                 const float* weights /* or NULL */, float* positions /* or NULL */,
+                                                 float* normals /* or NULL */, float* tangents /* or NULL */,
+                                                 size_t count, bendy_error* error);
 
 /* A range of a mesh's index list that belongs to one joint: for hit tests, severed limbs, culling. */
 typedef struct bendy_joint_submesh {
@@ -479,8 +484,8 @@ typedef struct bendy_joint_submesh {
 } bendy_joint_submesh;
 
 BENDY_API uint32_t bendy_joint_submesh_count(const bendy_model* model); /* 0 for NULL */
-BENDY_API bendy_status bendy_get_joint_submesh(const bendy_model* model, uint32_t submesh, bendy_joint_submesh* out,
-                                               bendy_error* error);
+BENDY_API bendy_status bendy_get_joint_submesh(const bendy_model* model, uint32_t joint_submesh,
+                                               bendy_joint_submesh* out, bendy_error* error);
 
 /* ---- Constraints and IK chains --------------------------------------------------------------------------- */
 
@@ -539,23 +544,24 @@ BENDY_API uint32_t bendy_joint_ik_constraint(const bendy_model* model, uint32_t 
 
 /* Convert a local rotation of the constraint's joint (unit quaternion, 4 floats) to R (unit quaternion, 4 doubles), and
  * back. */
-BENDY_API bendy_status bendy_to_constraint_space(const bendy_model* model, uint32_t constraint, const float* rotation,
-                                                 double* R, bendy_error* error);
-BENDY_API bendy_status bendy_from_constraint_space(const bendy_model* model, uint32_t constraint, const double* R,
-                                                   float* rotation, bendy_error* error);
+BENDY_API bendy_status bendy_to_constraint_space(const bendy_model* model, uint32_t constraint, const float rotation[4],
+                                                 double R[4], bendy_error* error);
+BENDY_API bendy_status bendy_from_constraint_space(const bendy_model* model, uint32_t constraint, const double R[4],
+                                                   float rotation[4], bendy_error* error);
 /* Finds the legal rotation nearest to R by angle, and the angle between the two in radians: 0 if R is legal. `clamped`
  * (4 doubles, may be R itself) and `violation` may be NULL: not wanted. */
-BENDY_API bendy_status bendy_clamp_rotation(const bendy_model* model, uint32_t constraint, const double* R,
-                                            double* clamped, double* violation, bendy_error* error);
+BENDY_API bendy_status bendy_clamp_rotation(const bendy_model* model, uint32_t constraint, const double R[4],
+                                            double clamped[4] /* or NULL */, double* violation /* or NULL */,
+                                            bendy_error* error);
 /* Clamps a local translation of the constraint's joint (3 floats, metres). `clamped` may be `translation` itself. */
-BENDY_API bendy_status bendy_clamp_translation(const bendy_model* model, uint32_t constraint, const float* translation,
-                                               float* clamped, bendy_error* error);
+BENDY_API bendy_status bendy_clamp_translation(const bendy_model* model, uint32_t constraint,
+                                               const float translation[3], float clamped[3], bendy_error* error);
 
 /* Copies the joints of an IK chain, from the start to the effector, and the weight of each in the chain, 0 to 1: how
  * much it turns. `weights` may be NULL: not wanted. `count` is the capacity of each array, at least
  * bendy_chain.links. */
-BENDY_API bendy_status bendy_get_links(const bendy_model* model, uint32_t chain, uint32_t* joints, float* weights,
-                                       size_t count, bendy_error* error);
+BENDY_API bendy_status bendy_get_links(const bendy_model* model, uint32_t chain, uint32_t* joints,
+                                       float* weights /* or NULL */, size_t count, bendy_error* error);
 /* Returns the chains' indices in the order in which bendy_reach_all solves them. One entry per chain, owned by the
  * model. Returns NULL for NULL or a model without chains. */
 BENDY_API const uint32_t* bendy_chain_order(const bendy_model* model);
@@ -593,15 +599,16 @@ BENDY_API bendy_status bendy_get_track(const bendy_model* model, uint32_t clip, 
                                        bendy_error* error);
 /* Evaluates a single track at `seconds` on its clip's time line. `count` is the capacity of `values`, at least
  * bendy_track.components. NaN is an error. */
-BENDY_API bendy_status bendy_sample_track(const bendy_model* model, uint32_t clip, uint32_t track, float seconds,
-                                          float* values, size_t count, bendy_error* error);
+BENDY_API bendy_status bendy_sample_track(const bendy_model* model, uint32_t clip, uint32_t track,
+                                          float seconds /* not NaN */, float* values, size_t count, bendy_error* error);
 
 /* The frames of a packed clip: between two of them, translations and scales change linearly, and rotations along the
  * great arc. Returns 0 for NULL, a clip that does not exist, or one that is not packed. */
 BENDY_API uint32_t bendy_packed_frame_count(const bendy_model* model, uint32_t clip);
 /* Writes the time of each frame, in seconds on the clip's time line, ascending. `count` is the capacity of `times`, at
  * least bendy_packed_frame_count. */
-BENDY_API bendy_status bendy_packed_frame_times(const bendy_model* model, uint32_t clip, float* times, size_t count,
+BENDY_API bendy_status bendy_packed_frame_times(const bendy_model* model, uint32_t clip,
+                                                float* times /* or NULL if there are none */, size_t count,
                                                 bendy_error* error);
 
 /* An event at a time of a clip: a footstep, a hit, a sound to play. The markers of a clip are numbered from 0, in time
@@ -637,11 +644,11 @@ typedef struct bendy_frame_mix {
 
 /* Returns the number of frame sequences of a clip; 0 for NULL or a clip that does not exist. */
 BENDY_API uint32_t bendy_frame_sequence_count(const bendy_model* model, uint32_t clip);
-BENDY_API bendy_status bendy_get_frame_sequence(const bendy_model* model, uint32_t clip, uint32_t sequence,
+BENDY_API bendy_status bendy_get_frame_sequence(const bendy_model* model, uint32_t clip, uint32_t frame_sequence,
                                                 bendy_frame_sequence* out, bendy_error* error);
 /* Finds the frames around `seconds` on the clip's time line, clamped to the first and last frame. NaN is an error. */
-BENDY_API bendy_status bendy_mix_frames(const bendy_model* model, uint32_t clip, uint32_t sequence, float seconds,
-                                        bendy_frame_mix* out, bendy_error* error);
+BENDY_API bendy_status bendy_mix_frames(const bendy_model* model, uint32_t clip, uint32_t frame_sequence,
+                                        float seconds /* not NaN */, bendy_frame_mix* out, bendy_error* error);
 
 /* A named curve of a clip: one to four animated numbers other than a joint's transform or a morph target's weight,
  * such as a material's colour or a camera's field of view. The curves of a clip are numbered from 0. */
@@ -677,7 +684,8 @@ BENDY_API uint32_t bendy_find_curve(const bendy_model* model, uint32_t clip, con
                                     bendy_error* error);
 /* Returns the clip's curve of a property of one joint, material, mesh or texture: `target_kind` is a
  * bendy_curve_target; BENDY_NONE if there is none. */
-BENDY_API uint32_t bendy_find_curve_of(const bendy_model* model, uint32_t clip, uint32_t target_kind, uint32_t target,
+BENDY_API uint32_t bendy_find_curve_of(const bendy_model* model, uint32_t clip,
+                                       uint32_t target_kind /* a bendy_curve_target */, uint32_t target_index,
                                        const char* path, bendy_error* error);
 BENDY_API bendy_status bendy_get_curve(const bendy_model* model, uint32_t clip, uint32_t curve, bendy_curve* out,
                                        bendy_error* error);
@@ -688,8 +696,9 @@ BENDY_API bendy_status bendy_get_curve_values(const bendy_model* model, uint32_t
 /* Evaluates a curve at `seconds` on its clip's time line. Before the first key and after the last one it returns the
  * value of that key. `count` is the capacity of `values`, at least bendy_curve.components. NaN is an error.
  * Allocates nothing except the text of an error. */
-BENDY_API bendy_status bendy_sample_curve(const bendy_model* model, uint32_t clip, uint32_t curve, double seconds,
-                                          float* values, size_t count, bendy_error* error);
+BENDY_API bendy_status bendy_sample_curve(const bendy_model* model, uint32_t clip, uint32_t curve,
+                                          double seconds /* not NaN */, float* values, size_t count,
+                                          bendy_error* error);
 
 /* ---- Posing ---------------------------------------------------------------------------------------------- */
 
@@ -709,17 +718,17 @@ BENDY_API bendy_status bendy_set_rest(bendy_pose* pose, bendy_error* error);
 /* Sets the pose to a clip at `seconds` on the clip's time line (bendy_clip.start to end). Whatever the clip does not
  * animate is set to rest. Times outside are clamped to the ends: the caller wraps time for clips that loop. NaN is
  * an error. */
-BENDY_API bendy_status bendy_sample(bendy_pose* pose, uint32_t clip, float seconds, bendy_error* error);
+BENDY_API bendy_status bendy_sample(bendy_pose* pose, uint32_t clip, float seconds /* not NaN */, bendy_error* error);
 
 /* Blends `pose` towards `other`, a pose of the same model: weight 0 leaves it unchanged, 1 makes it equal to
  * `other`; any finite weight is allowed. `mask` scales the weight per joint, or is NULL. */
-BENDY_API bendy_status bendy_blend(bendy_pose* pose, const bendy_pose* other, float weight, const float* mask,
-                                   bendy_error* error);
+BENDY_API bendy_status bendy_blend(bendy_pose* pose, const bendy_pose* other, float weight,
+                                   const float* mask /* or NULL */, bendy_error* error);
 /* Turns `pose` into its difference from `reference`, as an input for bendy_add. */
 BENDY_API bendy_status bendy_make_additive(bendy_pose* pose, const bendy_pose* reference, bendy_error* error);
 /* Adds a difference, scaled by `weight`. */
-BENDY_API bendy_status bendy_add(bendy_pose* pose, const bendy_pose* difference, float weight, const float* mask,
-                                 bendy_error* error);
+BENDY_API bendy_status bendy_add(bendy_pose* pose, const bendy_pose* difference, float weight,
+                                 const float* mask /* or NULL */, bendy_error* error);
 /* Makes a mask: `inside` for a joint and its descendants, `outside` for all others. `count` is the capacity of
  * `mask`, at least the number of joints. */
 BENDY_API bendy_status bendy_mask_below(const bendy_model* model, uint32_t joint, float inside, float outside,
@@ -728,19 +737,20 @@ BENDY_API bendy_status bendy_mask_below(const bendy_model* model, uint32_t joint
 /* Get and set the local transforms of `count` joints, starting at joint `first`. Values set must be finite, and
  * rotations unit quaternions. */
 BENDY_API bendy_status bendy_get_local(const bendy_pose* pose, uint32_t first, uint32_t count,
-                                       bendy_transform* transforms, bendy_error* error);
+                                       bendy_transform* transforms /* or NULL if `count` is 0 */, bendy_error* error);
 BENDY_API bendy_status bendy_set_local(bendy_pose* pose, uint32_t first, uint32_t count,
-                                       const bendy_transform* transforms, bendy_error* error);
+                                       const bendy_transform* transforms /* or NULL if `count` is 0 */,
+                                       bendy_error* error);
 /* Get and set the weights of `count` morph targets, starting at target `first`. Weights are finite, usually 0 to 1. */
-BENDY_API bendy_status bendy_get_weights(const bendy_pose* pose, uint32_t first, uint32_t count, float* weights,
-                                         bendy_error* error);
-BENDY_API bendy_status bendy_set_weights(bendy_pose* pose, uint32_t first, uint32_t count, const float* weights,
-                                         bendy_error* error);
+BENDY_API bendy_status bendy_get_weights(const bendy_pose* pose, uint32_t first, uint32_t count,
+                                         float* weights /* or NULL if `count` is 0 */, bendy_error* error);
+BENDY_API bendy_status bendy_set_weights(bendy_pose* pose, uint32_t first, uint32_t count,
+                                         const float* weights /* or NULL if `count` is 0 */, bendy_error* error);
 
 /* Computes the matrix of a local transform, 16 floats: translation * rotation * scale with the joint's shear
  * (bendy_joint.shear; NULL: none). */
-BENDY_API bendy_status bendy_transform_matrix(const bendy_transform* transform, const float* shear, float* matrix,
-                                              bendy_error* error);
+BENDY_API bendy_status bendy_transform_matrix(const bendy_transform* transform, const float shear[3] /* or NULL */,
+                                              float matrix[16], bendy_error* error);
 
 /* Moves every joint into the range that its constraints allow. */
 BENDY_API bendy_status bendy_constrain(bendy_pose* pose, bendy_error* error);
@@ -755,7 +765,7 @@ typedef struct bendy_reach_options {
     float softness;      /* 0 to 1: two-bone: the fraction of its length over which the chain slows near full reach */
     float gain;          /* pull: radians per chain length of distance */
     float step_limit;    /* pull: radians per joint and call */
-    uint32_t ignore_constraints; /* 1: joints may turn beyond their limits */
+    uint32_t ignore_constraints; /* 1: joints may turn beyond their limits; elsewhere: not obey_constraints */
     uint32_t has_pole;           /* 1: use `pole`; 0: use the chain's own pole */
     float pole[3];               /* two-bone, aim: a point in model space to bend towards */
     uint32_t carry_target;       /* 1: afterwards, the joint that the chain follows is moved to the tip */
@@ -784,15 +794,36 @@ typedef struct bendy_reach_result {
  * its joints' constraints, starting from the current pose. `rotation` is the desired orientation of the tip (unit
  * quaternion, 4 floats), or NULL. `options` and `result` may be NULL. A target that is not reached is a result, not
  * an error. */
-BENDY_API bendy_status bendy_reach(bendy_pose* pose, uint32_t chain, const float* position, const float* rotation,
-                                   const bendy_reach_options* options, bendy_reach_result* result, bendy_error* error);
+BENDY_API bendy_status bendy_reach(bendy_pose* pose, uint32_t chain, const float position[3],
+                                   const float rotation[4] /* or NULL */,
+                                   const bendy_reach_options* options /* or NULL */,
+                                   bendy_reach_result* result /* or NULL */, bendy_error* error);
+/* A chain to move, as for bendy_reach. */
+typedef struct bendy_reach_request {
+    uint32_t size; /* in an array, the same for all requests: the distance from one to the next */
+    uint32_t chain;
+    float position[3];                  /* metres, model space */
+    uint32_t has_rotation;              /* 1: use `rotation` */
+    float rotation[4];                  /* unit quaternion: the desired orientation of the tip */
+    const bendy_reach_options* options; /* or NULL */
+} bendy_reach_request;
+
+#define BENDY_REACH_REQUEST_INIT \
+    { sizeof(bendy_reach_request), BENDY_NONE, {0.0f, 0.0f, 0.0f}, 0, {0.0f, 0.0f, 0.0f, 1.0f}, NULL }
+
+/* As bendy_reach for one request after another, with the same pose as the result; faster, since limbs of two bones that
+ * do not move one another, such as arms and legs, are solved side by side. `results` has one for each request. If one
+ * request has a bad argument, nothing is moved. */
+BENDY_API bendy_status bendy_reach_chains(bendy_pose* pose, const bendy_reach_request* requests, size_t count,
+                                          bendy_reach_result* results /* or NULL */, bendy_error* error);
 /* Solves every chain that follows a target joint, in order of priority. */
 BENDY_API bendy_status bendy_reach_all(bendy_pose* pose, bendy_error* error);
 
 /* Computes the matrices of `count` joints starting at joint `first`, 16 floats each, from joint space to model space
  * or, if `world` is given (model space to world space, 16 floats), to world space. `world` may be NULL. */
-BENDY_API bendy_status bendy_joint_matrices(bendy_pose* pose, uint32_t first, uint32_t count, const float* world,
-                                            float* matrices, bendy_error* error);
+BENDY_API bendy_status bendy_joint_matrices(bendy_pose* pose, uint32_t first, uint32_t count,
+                                            const float world[16] /* or NULL */,
+                                            float* matrices /* or NULL if `count` is 0 */, bendy_error* error);
 /* Computes the skinning palette of a mesh, for skinning elsewhere: for each bone, 16 floats, from mesh space to
  * model space. `count` is the capacity of `matrices` in matrices, at least bendy_mesh.bones. Fails for a rigid mesh:
  * use bendy_skin for its vertices. */
@@ -847,16 +878,18 @@ typedef struct bendy_playback_info {
 BENDY_API bendy_playback* bendy_playback_new(const bendy_model* model, uint32_t clip, bendy_error* error);
 /* Creates a clock for a range of a time line in seconds, with a bendy_loop_mode. If `end` is not after `start`, it
  * stands still. */
-BENDY_API bendy_playback* bendy_playback_new_range(float start, float end, uint32_t mode, bendy_error* error);
+BENDY_API bendy_playback* bendy_playback_new_range(float start, float end, uint32_t mode /* a bendy_loop_mode */,
+                                                   bendy_error* error);
 BENDY_API void bendy_playback_free(bendy_playback* playback); /* does nothing for NULL */
 BENDY_API bendy_status bendy_get_playback(const bendy_playback* playback, bendy_playback_info* out, bendy_error* error);
 /* Advances by `seconds` times the speed, backwards if that is negative. `played` receives the interval played; may be
  * NULL. */
-BENDY_API bendy_status bendy_playback_advance(bendy_playback* playback, double seconds, bendy_played* played,
-                                              bendy_error* error);
+BENDY_API bendy_status bendy_playback_advance(bendy_playback* playback, double seconds,
+                                              bendy_played* played /* or NULL */, bendy_error* error);
 BENDY_API bendy_status bendy_playback_set_speed(bendy_playback* playback, double speed, bendy_error* error);
 /* Sets the bendy_loop_mode; keeps the current time. */
-BENDY_API bendy_status bendy_playback_set_mode(bendy_playback* playback, uint32_t mode, bendy_error* error);
+BENDY_API bendy_status bendy_playback_set_mode(bendy_playback* playback, uint32_t mode /* a bendy_loop_mode */,
+                                               bendy_error* error);
 /* Jump to a time in seconds, or to a fraction of the length, without playing what lies between. Clamped to the range;
  * except in BENDY_LOOP_ONCE, the end counts as the start of the next pass. */
 BENDY_API bendy_status bendy_playback_seek(bendy_playback* playback, double seconds, bendy_error* error);
@@ -868,7 +901,8 @@ BENDY_API bendy_status bendy_count_markers(const bendy_model* model, uint32_t cl
 /* Copies the indices of the markers that an interval passes, in playback order: the first `capacity` of them. `*count`
  * receives how many were written. */
 BENDY_API bendy_status bendy_collect_markers(const bendy_model* model, uint32_t clip, const bendy_played* played,
-                                             uint32_t* markers, size_t capacity, size_t* count, bendy_error* error);
+                                             uint32_t* markers /* or NULL if `capacity` is 0 */, size_t capacity,
+                                             size_t* count, bendy_error* error);
 
 typedef enum bendy_easing {
     BENDY_EASING_LINEAR = 0,
@@ -885,8 +919,8 @@ typedef struct bendy_fade bendy_fade;
 BENDY_API bendy_fade* bendy_fade_new(float weight, bendy_error* error);
 BENDY_API void bendy_fade_free(bendy_fade* fade); /* does nothing for NULL */
 /* Starts a fade from the current weight that takes `seconds`; immediate if `seconds` is not above 0. */
-BENDY_API bendy_status bendy_fade_to(bendy_fade* fade, float weight, float seconds, uint32_t easing,
-                                     bendy_error* error);
+BENDY_API bendy_status bendy_fade_to(bendy_fade* fade, float weight, float seconds,
+                                     uint32_t easing /* a bendy_easing */, bendy_error* error);
 BENDY_API bendy_status bendy_fade_advance(bendy_fade* fade, double seconds, bendy_error* error);
 BENDY_API float bendy_fade_weight(const bendy_fade* fade);     /* 0 for NULL */
 BENDY_API uint32_t bendy_fade_is_done(const bendy_fade* fade); /* 1 once the weight is reached; 1 for NULL */
@@ -910,8 +944,9 @@ BENDY_API bendy_crossfade* bendy_crossfade_new(const bendy_model* model, bendy_e
 BENDY_API void bendy_crossfade_free(bendy_crossfade* crossfade); /* does nothing for NULL */
 /* Starts a clip, over `fade_seconds`; the first one is visible in full at once. `playback` is the clock to copy
  * (another speed, in step with the clip that plays now), or NULL: the clip's own, as bendy_playback_new makes it. */
-BENDY_API bendy_status bendy_crossfade_play(bendy_crossfade* crossfade, uint32_t clip, const bendy_playback* playback,
-                                            float fade_seconds, uint32_t easing, bendy_error* error);
+BENDY_API bendy_status bendy_crossfade_play(bendy_crossfade* crossfade, uint32_t clip,
+                                            const bendy_playback* playback /* or NULL */, float fade_seconds,
+                                            uint32_t easing /* a bendy_easing */, bendy_error* error);
 /* Advances all clocks and fades; then drops the clips that are completely covered, with their played intervals. */
 BENDY_API bendy_status bendy_crossfade_advance(bendy_crossfade* crossfade, double seconds, bendy_error* error);
 /* Returns the number of clips that play, numbered from 0, the oldest; 0 for NULL. */
@@ -948,7 +983,7 @@ typedef struct bendy_root_motion {
     }
 
 /* Computes the matrix of a motion, 16 doubles. */
-BENDY_API bendy_status bendy_root_motion_matrix(const bendy_root_motion* motion, double* matrix, bendy_error* error);
+BENDY_API bendy_status bendy_root_motion_matrix(const bendy_root_motion* motion, double matrix[16], bendy_error* error);
 /* Applies `motion`, given in the axes of `before`, after `before`. Each frame: compose(&character, &motion,
  * &character). `out` may be an input, here and below. */
 BENDY_API bendy_status bendy_root_motion_compose(const bendy_root_motion* before, const bendy_root_motion* motion,
@@ -984,8 +1019,8 @@ typedef struct bendy_root_axes {
 typedef struct bendy_root_path bendy_root_path;
 
 /* `axes` may be NULL: x, z and yaw. */
-BENDY_API bendy_root_path* bendy_root_path_new(const bendy_model* model, uint32_t joint, const bendy_root_axes* axes,
-                                               bendy_error* error);
+BENDY_API bendy_root_path* bendy_root_path_new(const bendy_model* model, uint32_t joint,
+                                               const bendy_root_axes* axes /* or NULL */, bendy_error* error);
 BENDY_API void bendy_root_path_free(bendy_root_path* path); /* does nothing for NULL */
 /* Computes the motion from the root's rest pose to its position in a clip at a time, in model space. */
 BENDY_API bendy_status bendy_root_path_at(const bendy_root_path* path, uint32_t clip, double seconds,
@@ -998,8 +1033,8 @@ BENDY_API bendy_status bendy_root_path_between(const bendy_root_path* path, uint
 BENDY_API bendy_status bendy_root_path_over(const bendy_root_path* path, uint32_t clip, const bendy_played* played,
                                             bendy_root_motion* out, bendy_error* error);
 /* Takes the motion out of a pose: along the chosen axes the root is then at rest. `out` receives it; may be NULL. */
-BENDY_API bendy_status bendy_root_path_extract(const bendy_root_path* path, bendy_pose* pose, bendy_root_motion* out,
-                                               bendy_error* error);
+BENDY_API bendy_status bendy_root_path_extract(const bendy_root_path* path, bendy_pose* pose,
+                                               bendy_root_motion* out /* or NULL */, bendy_error* error);
 
 /* ---- Sockets and bounds ---------------------------------------------------------------------------------- */
 
@@ -1020,8 +1055,8 @@ typedef struct bendy_socket {
 /* Computes the matrix from socket space to model space or, if `world` is given (model space to world space, 16 floats),
  * to world space: world * joint * offset, 16 floats. With keeps_size the joint's axes are first made orthonormal and
  * right-handed. `world` may be NULL. */
-BENDY_API bendy_status bendy_socket_matrix(bendy_pose* pose, const bendy_socket* socket, const float* world,
-                                           float* matrix, bendy_error* error);
+BENDY_API bendy_status bendy_socket_matrix(bendy_pose* pose, const bendy_socket* socket,
+                                           const float world[16] /* or NULL */, float matrix[16], bendy_error* error);
 
 /* An axis-aligned box that includes both corners; empty if a minimum is above its maximum (infinity above -infinity).
  */
@@ -1042,7 +1077,7 @@ BENDY_API bendy_status bendy_bounds_of_pose(const bendy_bounds* bounds, bendy_po
                                             bendy_error* error);
 /* Computes the box of all vertices that a joint moves, as if that joint alone moved them: in a pose, in model space,
  * or, if `pose` is NULL, in joint space with morph target weights 0. */
-BENDY_API bendy_status bendy_bounds_of_joint(const bendy_bounds* bounds, bendy_pose* pose, uint32_t joint,
+BENDY_API bendy_status bendy_bounds_of_joint(const bendy_bounds* bounds, bendy_pose* pose /* or NULL */, uint32_t joint,
                                              bendy_box* out, bendy_error* error);
 
 /* ---- Clips of another file ------------------------------------------------------------------------------- */
@@ -1070,11 +1105,11 @@ typedef struct bendy_binding bendy_binding;
 
 /* `options` may be NULL. */
 BENDY_API bendy_binding* bendy_binding_new(const bendy_model* animated, const bendy_model* posed,
-                                           const bendy_binding_options* options, bendy_error* error);
+                                           const bendy_binding_options* options /* or NULL */, bendy_error* error);
 BENDY_API void bendy_binding_free(bendy_binding* binding); /* does nothing for NULL */
 /* As bendy_sample, for a clip of the animated model and a pose of the posed model. */
-BENDY_API bendy_status bendy_sample_bound(bendy_pose* pose, bendy_binding* binding, uint32_t clip, float seconds,
-                                          bendy_error* error);
+BENDY_API bendy_status bendy_sample_bound(bendy_pose* pose, bendy_binding* binding, uint32_t clip,
+                                          float seconds /* not NaN */, bendy_error* error);
 /* Return, for each joint or morph target of the animated model, the posed model's, or BENDY_NONE. Owned by the binding;
  * NULL for NULL or an empty list. */
 BENDY_API const uint32_t* bendy_binding_joints(const bendy_binding* binding);
@@ -1105,7 +1140,7 @@ BENDY_API void bendy_lod_free(bendy_lod* lod); /* does nothing for NULL */
 BENDY_API uint32_t bendy_has_levels(const bendy_model* model);
 /* Keeps about this share of the triangles: 1 keeps all, 0 as few as the file's sequence allows. Invalidates pointers
  * into `lod`. */
-BENDY_API bendy_status bendy_lod_set_share(bendy_lod* lod, float share, bendy_error* error);
+BENDY_API bendy_status bendy_lod_set_share(bendy_lod* lod, float share /* 0 to 1 */, bendy_error* error);
 BENDY_API bendy_status bendy_get_lod(const bendy_lod* lod, bendy_lod_info* out, bendy_error* error);
 /* Returns how many vertices of a mesh are in use at this level: the first ones. 0 for NULL or a mesh that does not
  * exist. */
@@ -1159,11 +1194,12 @@ typedef struct bendy_skin_options {
 /* Applies morph targets and skins vertices into the caller's memory. Its capacity must be at least
  * bendy_vertex_count or, for one mesh, the mesh's vertices, or those in use at the level of detail. `options` may be
  * NULL: all meshes, linear. A pose's first call with dual quaternions allocates memory. */
-BENDY_API bendy_status bendy_skin(bendy_pose* pose, const bendy_skin_options* options, const bendy_vertices* out,
-                                  bendy_error* error);
+BENDY_API bendy_status bendy_skin(bendy_pose* pose, const bendy_skin_options* options /* or NULL */,
+                                  const bendy_vertices* out, bendy_error* error);
 
 /* Allocates the memory that a bendy_skin_method needs in addition to the pose's own, so that no bendy_skin does. */
-BENDY_API bendy_status bendy_prepare_skin(bendy_pose* pose, uint32_t method, bendy_error* error);
+BENDY_API bendy_status bendy_prepare_skin(bendy_pose* pose, uint32_t method /* a bendy_skin_method */,
+                                          bendy_error* error);
 
 /* ---- Crowds ---------------------------------------------------------------------------------------------- */
 

@@ -21,12 +21,6 @@ namespace {
 
 constexpr std::uint32_t kMostWorkers = 4096;  // each takes the memory of a pose
 
-/// Member `number` of the caller's array, whose structs may have another size than this library's.
-const bendy_crowd_member* member_at(const bendy_crowd_member* members, std::size_t number) {
-    const auto* const bytes = reinterpret_cast<const char*>(members);                    // NOLINT(*-reinterpret-cast)
-    return reinterpret_cast<const bendy_crowd_member*>(bytes + number * members->size);  // NOLINT(*-reinterpret-cast)
-}
-
 /// What a member asks for, checked. `palette` is the caller's memory for matrices.
 struct Request {
     CrowdMember member;
@@ -34,12 +28,10 @@ struct Request {
 };
 
 /// \param has_clip  whether the member's clip and time are used
-bendy_status take_member(const Character& character, const bendy_crowd_member* from, std::uint32_t size, bool has_clip,
-                         Request& taken, bendy_error* error) {
+bendy_status take_member(const Character& character, const bendy_crowd_member* members, std::size_t number,
+                         bool has_clip, Request& taken, bendy_error* error) {
     bendy_crowd_member values = BENDY_CROWD_MEMBER_INIT;
-    // Before it is read: a member that claims to be larger than the first would be read past the end of the array.
-    if (from->size != size) return fail(error, BENDY_BAD_ARGUMENT, "members have different sizes");
-    if (const bendy_status status = take(from, "members", values, error)) return status;
+    if (const bendy_status status = take(at(members, number), "members", values, error)) return status;
     const Model& model = character.model;
     taken = {};
     if (has_clip && values.clip != BENDY_NONE) {
@@ -65,13 +57,10 @@ bendy_status play(bendy_crowd* crowd, const bendy_crowd_member* members, std::si
     if (const bendy_status status = check_pointer(crowd, "crowd", error)) return status;
     if (const bendy_status status = check_index(worker, crowd->crowd.workers(), "worker", error, "the crowd"))
         return status;
-    if (count == 0) return BENDY_OK;
-    if (const bendy_status status = check_out(members, "members", error)) return status;
-    if (members->size % alignof(bendy_crowd_member) != 0)
-        return fail(error, BENDY_BAD_ARGUMENT, "members: their size is not that of a struct in an array");
+    if (const bendy_status status = check_array(members, count, "members", error)) return status;
     Request request;
     const auto take_number = [&](std::size_t number) {
-        return take_member(*crowd->character, member_at(members, number), members->size, has_clips, request, error);
+        return take_member(*crowd->character, members, number, has_clips, request, error);
     };
     for (std::size_t number = 0; number < count; ++number) {  // all checks come before the first write
         if (const bendy_status status = take_number(number)) return status;

@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 // Fills in the caller's bendy_error, and checks arguments. Each `fail` returns the status, for the caller to return.
 namespace bendy::capi {
@@ -115,6 +116,31 @@ bendy_status take(const S* in, const char* name, S& value, bendy_error* error) {
                     std::string(name) + " asks for something that this version of the library does not know");
     }
     std::memcpy(&value, in, known);
+    return BENDY_OK;
+}
+
+// Arrays of structs, each of which is as large as the first says.
+
+/// Struct `number` of the caller's array.
+template <class S>
+S* at(S* first, std::size_t number) {
+    using Byte = std::conditional_t<std::is_const_v<S>, const char, char>;
+    auto* const bytes = reinterpret_cast<Byte*>(first);         // NOLINT(*-reinterpret-cast)
+    return reinterpret_cast<S*>(bytes + number * first->size);  // NOLINT(*-reinterpret-cast)
+}
+
+/// Whether the first of `count` structs has a size that those of an array can have, and all others have the same:
+/// before one is touched, since one that claims to be larger would reach past the end of the array.
+template <class S>
+bendy_status check_array(const S* first, std::size_t count, const char* name, bendy_error* error) {
+    if (count == 0) return BENDY_OK;
+    if (const bendy_status status = check_out(first, name, error)) return status;
+    if (first->size % alignof(S) != 0)
+        return fail(error, BENDY_BAD_ARGUMENT, std::string(name) + ": their size is not that of a struct in an array");
+    for (std::size_t k = 1; k < count; ++k) {
+        if (at(first, k)->size != first->size)
+            return fail(error, BENDY_BAD_ARGUMENT, std::string(name) + " have different sizes");
+    }
     return BENDY_OK;
 }
 

@@ -5,6 +5,11 @@
 #include <bendy/runtime/constrain.h>
 #include <bendy/runtime/ik.h>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 
 namespace bendy::capi {
@@ -49,6 +54,22 @@ bendy_status take_target(const float* position, const float* rotation, ReachTarg
     return BENDY_OK;
 }
 
+bendy_reach_result to_c(const ReachResult& from) {
+    return {0, static_cast<std::uint32_t>(from.status), from.distance, from.angle, from.iterations};
+}
+
+/// Request `number` of the caller's array.
+bendy_status take_request(const Model& model, const bendy_reach_request* requests, std::size_t number,
+                          ReachRequest& taken, bendy_error* error) {
+    bendy_reach_request values = BENDY_REACH_REQUEST_INIT;
+    if (const bendy_status status = take(at(requests, number), "requests", values, error)) return status;
+    if (const bendy_status status = check_index(values.chain, model.chains().size(), "chain", error)) return status;
+    taken = {&model.chains()[values.chain], {}, {}};
+    const float* const rotation = values.has_rotation != 0 ? values.rotation : nullptr;
+    if (const bendy_status status = take_target(values.position, rotation, taken.target, error)) return status;
+    return take_options(values.options, taken.options, error);
+}
+
 }  // namespace
 }  // namespace bendy::capi
 
@@ -78,9 +99,34 @@ bendy_status bendy_reach(bendy_pose* pose, uint32_t chain, const float* position
         const auto reached = bendy::reach(pose->pose, &chains[chain], target, taken);
         if (!reached)
             return fail(error, BENDY_BAD_ARGUMENT, "the pose, or the chain, holds numbers that are not finite");
-        if (result != nullptr) {
-            put(*result, {0, static_cast<std::uint32_t>(reached->status), reached->distance, reached->angle,
-                          reached->iterations});
+        if (result != nullptr) put(*result, to_c(*reached));
+        return BENDY_OK;
+    });
+}
+
+bendy_status bendy_reach_chains(bendy_pose* pose, const bendy_reach_request* requests, size_t count,
+                                bendy_reach_result* results, bendy_error* error) {
+    return guarded(error, [&] {
+        if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
+        if (const bendy_status status = check_array(requests, count, "requests", error)) return status;
+        if (results != nullptr) {
+            if (const bendy_status status = check_array(results, count, "results", error)) return status;
+        }
+        constexpr std::size_t kAtOnce = 16;  // in the order of the requests: to split them changes no pose
+        std::array<bendy::ReachRequest, kAtOnce> taken;
+        for (std::size_t k = 0; k < count; ++k) {  // all checks come before the first chain moves
+            if (const bendy_status status = take_request(pose->pose.model(), requests, k, taken[0], error))
+                return status;
+        }
+        std::array<bendy::ReachResult, kAtOnce> reached;
+        for (std::size_t first = 0; first < count; first += kAtOnce) {
+            const std::size_t size = std::min(kAtOnce, count - first);
+            for (std::size_t k = 0; k < size; ++k)
+                (void)take_request(pose->pose.model(), requests, first + k, taken[k], error);
+            const std::span<bendy::ReachResult> out(reached.data(), size);
+            if (!bendy::reach(pose->pose, std::span(taken.data(), size), out))
+                return fail(error, BENDY_BAD_ARGUMENT, "the pose, or a chain, holds numbers that are not finite");
+            for (std::size_t k = 0; results != nullptr && k < size; ++k) put(*at(results, first + k), to_c(reached[k]));
         }
         return BENDY_OK;
     });

@@ -3,9 +3,12 @@
 #include "source_folder.h"
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
+#include <vector>
 
 namespace bendy::test::pose_test {
 namespace {
@@ -122,6 +125,63 @@ TEST(CPose, DefaultReachIsTheSameAsInCpp) {
     bendy_reach_all(pose.get(), nullptr);
     reach_all(cpp);
     EXPECT_EQ(skin_all(pose.get(), model.get()), skin_all(cpp, *expected));
+}
+
+/// Targets that a rope follows one after another: more than are solved at once.
+std::vector<bendy_reach_request> requests_along_a_line(const bendy_reach_options* options) {
+    std::vector<bendy_reach_request> requests(20, BENDY_REACH_REQUEST_INIT);
+    for (std::size_t k = 0; k < requests.size(); ++k) {
+        requests[k].chain = 0;
+        requests[k].position[0] = 0.02f * static_cast<float>(k);
+        requests[k].position[1] = 0.5f;
+        requests[k].has_rotation = k % 2;
+        requests[k].options = k % 3 == 0 ? options : nullptr;
+    }
+    return requests;
+}
+
+TEST(CPose, SeveralChainsReachAsOneAfterAnother) {
+    const ModelHandle model(bendy_open(seed("rope_rigged.bendy").c_str(), nullptr, nullptr));
+    bendy_reach_options options = BENDY_REACH_OPTIONS_INIT;
+    options.influence = 0.5f;
+    const auto requests = requests_along_a_line(&options);
+    const PoseHandle together = new_pose(model);
+    std::vector<bendy_reach_result> results(requests.size(), sized<bendy_reach_result>());
+    ASSERT_EQ(bendy_reach_chains(together.get(), requests.data(), requests.size(), results.data(), nullptr), BENDY_OK);
+    const PoseHandle single = new_pose(model);
+    for (std::size_t k = 0; k < requests.size(); ++k) {
+        auto result = sized<bendy_reach_result>();
+        const float* const rotation = requests[k].has_rotation != 0 ? requests[k].rotation : nullptr;
+        ASSERT_EQ(bendy_reach(single.get(), 0, requests[k].position, rotation, requests[k].options, &result, nullptr),
+                  BENDY_OK);
+        EXPECT_EQ(results[k].distance, result.distance) << k;
+        EXPECT_EQ(results[k].angle, result.angle) << k;
+        EXPECT_EQ(results[k].iterations, result.iterations) << k;
+    }
+    EXPECT_EQ(skin_all(together.get(), model.get()), skin_all(single.get(), model.get()));
+}
+
+TEST(CPose, ABadRequestMovesNothing) {
+    const ModelHandle model(bendy_open(seed("rope_rigged.bendy").c_str(), nullptr, nullptr));
+    const PoseHandle pose = new_pose(model);
+    const auto rest = skin_all(pose.get(), model.get());
+    const auto reach = [&](std::vector<bendy_reach_request> requests) {
+        bendy_error error = BENDY_ERROR_INIT;
+        EXPECT_EQ(bendy_reach_chains(pose.get(), requests.data(), requests.size(), nullptr, &error),
+                  BENDY_BAD_ARGUMENT);
+        EXPECT_EQ(skin_all(pose.get(), model.get()), rest);
+        return std::string(error.message);
+    };
+    auto requests = requests_along_a_line(nullptr);
+    requests[18].chain = 9;
+    EXPECT_EQ(reach(requests), "chain 9 does not exist: the model has 2 chains");
+    requests = requests_along_a_line(nullptr);
+    requests[18].position[1] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(reach(requests), "position holds a number that is not finite");
+    requests = requests_along_a_line(nullptr);
+    requests[18].size = 4096;
+    EXPECT_EQ(reach(requests), "requests have different sizes");
+    EXPECT_EQ(bendy_reach_chains(pose.get(), nullptr, 0, nullptr, nullptr), BENDY_OK);
 }
 
 // The library's defaults are the C++ ones.
