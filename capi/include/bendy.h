@@ -812,10 +812,11 @@ typedef struct bendy_reach_request {
     { sizeof(bendy_reach_request), BENDY_NONE, {0.0f, 0.0f, 0.0f}, 0, {0.0f, 0.0f, 0.0f, 1.0f}, NULL }
 
 /* As bendy_reach for one request after another, with the same pose as the result; faster, since limbs of two bones that
- * do not move one another, such as arms and legs, are solved side by side. `results` has one for each request. If one
- * request has a bad argument, nothing is moved. */
+ * do not move one another, such as arms and legs, are solved side by side. If one request has a bad argument, nothing
+ * is moved. */
 BENDY_API bendy_status bendy_reach_chains(bendy_pose* pose, const bendy_reach_request* requests, size_t count,
-                                          bendy_reach_result* results /* or NULL */, bendy_error* error);
+                                          bendy_reach_result* results /* or NULL, or one for each request */,
+                                          bendy_error* error);
 /* Solves every chain that follows a target joint, in order of priority. */
 BENDY_API bendy_status bendy_reach_all(bendy_pose* pose, bendy_error* error);
 

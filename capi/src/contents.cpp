@@ -1,5 +1,7 @@
 // What is in a model: counts, names, and a struct for each joint, clip, IK chain, morph target and mesh.
+#include "calls.h"
 #include "fail.h"
+#include "fields.h"
 #include "handles.h"
 #include "lookup.h"
 
@@ -28,35 +30,12 @@ std::string not_found(std::string_view kind, std::string_view name, const std::v
     return text;
 }
 
-std::uint32_t find(const bendy_model* model, NameList list, const char* kind, const char* name, bendy_error* error) {
-    std::uint32_t found = BENDY_NONE;
-    guarded(error, [&] {
-        if (const bendy_status status = check_pointer(model, "model", error)) return status;
-        if (const bendy_status status = check_pointer(name, "name", error)) return status;
-        const auto& names = model->character->names.*list;
-        const auto at = std::find(names.begin(), names.end(), name);
-        if (at == names.end()) return fail(error, BENDY_NOT_FOUND, not_found(kind, name, names));
-        found = static_cast<std::uint32_t>(at - names.begin());
-        return BENDY_OK;
-    });
-    return found;
-}
-
-void describe_chain(const ChainRecord& record, bendy_chain& out) {
-    out.solver = record.solver;
-    out.flags = record.flags;
-    out.iterations = record.iterations;
-    out.priority = record.priority;
-    out.tolerance = record.tolerance;
-    std::copy(record.pole_vector.begin(), record.pole_vector.end(), out.pole_vector);
-    out.pole_angle = record.pole_angle;
-    std::copy(record.tip_offset.begin(), record.tip_offset.end(), out.tip_offset);
-    std::copy(record.tip_rotation.begin(), record.tip_rotation.end(), out.tip_rotation);
-    out.position_weight = record.position_weight;
-    out.rotation_weight = record.rotation_weight;
-    out.influence = record.influence;
-    out.stretch = record.stretch;
-    out.compress = record.compress;
+bendy_status find(const std::vector<std::string>& names, const char* kind, const char* name, std::uint32_t& found,
+                  bendy_error* error) {
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end()) return fail(error, BENDY_NOT_FOUND, not_found(kind, name, names));
+    found = static_cast<std::uint32_t>(at - names.begin());
+    return BENDY_OK;
 }
 
 void describe_mesh(const Model& model, std::uint32_t number, bendy_mesh& out) {
@@ -84,54 +63,32 @@ void describe_mesh(const Model& model, std::uint32_t number, bendy_mesh& out) {
 
 using namespace bendy::capi;
 
-uint32_t bendy_joint_count(const bendy_model* model) {
-    return count_of(model, &Names::joints);
-}
-uint32_t bendy_clip_count(const bendy_model* model) {
-    return count_of(model, &Names::clips);
-}
-uint32_t bendy_chain_count(const bendy_model* model) {
-    return count_of(model, &Names::chains);
-}
-uint32_t bendy_morph_target_count(const bendy_model* model) {
-    return count_of(model, &Names::targets);
-}
-uint32_t bendy_mesh_count(const bendy_model* model) {
-    return count_of(model, &Names::meshes);
-}
-uint32_t bendy_submesh_count(const bendy_model* model) {
-    return model == nullptr ? 0 : static_cast<std::uint32_t>(model->get().submeshes().size());
-}
-uint32_t bendy_material_count(const bendy_model* model) {
-    return count_of(model, &Names::materials);
-}
-uint32_t bendy_texture_count(const bendy_model* model) {
-    return count_of(model, &Names::textures);
-}
 uint64_t bendy_vertex_count(const bendy_model* model) {
     return model == nullptr ? 0 : model->get().vertex_count();
 }
 
-uint32_t bendy_find_joint(const bendy_model* model, const char* name, bendy_error* error) {
-    return find(model, &Names::joints, "joint", name, error);
+bendy_status bendy::capi::find_joint(const bendy_model* model, const char* name, uint32_t& made, bendy_error* error) {
+    return find(model->character->names.joints, "joint", name, made, error);
 }
-uint32_t bendy_find_clip(const bendy_model* model, const char* name, bendy_error* error) {
-    return find(model, &Names::clips, "clip", name, error);
+bendy_status bendy::capi::find_clip(const bendy_model* model, const char* name, uint32_t& made, bendy_error* error) {
+    return find(model->character->names.clips, "clip", name, made, error);
 }
-uint32_t bendy_find_chain(const bendy_model* model, const char* name, bendy_error* error) {
-    return find(model, &Names::chains, "chain", name, error);
+bendy_status bendy::capi::find_chain(const bendy_model* model, const char* name, uint32_t& made, bendy_error* error) {
+    return find(model->character->names.chains, "chain", name, made, error);
 }
-uint32_t bendy_find_morph_target(const bendy_model* model, const char* name, bendy_error* error) {
-    return find(model, &Names::targets, "target", name, error);
+bendy_status bendy::capi::find_morph_target(const bendy_model* model, const char* name, uint32_t& made,
+                                            bendy_error* error) {
+    return find(model->character->names.targets, "target", name, made, error);
 }
-uint32_t bendy_find_mesh(const bendy_model* model, const char* name, bendy_error* error) {
-    return find(model, &Names::meshes, "mesh", name, error);
+bendy_status bendy::capi::find_mesh(const bendy_model* model, const char* name, uint32_t& made, bendy_error* error) {
+    return find(model->character->names.meshes, "mesh", name, made, error);
 }
-uint32_t bendy_find_material(const bendy_model* model, const char* name, bendy_error* error) {
-    return find(model, &Names::materials, "material", name, error);
+bendy_status bendy::capi::find_material(const bendy_model* model, const char* name, uint32_t& made,
+                                        bendy_error* error) {
+    return find(model->character->names.materials, "material", name, made, error);
 }
-uint32_t bendy_find_texture(const bendy_model* model, const char* name, bendy_error* error) {
-    return find(model, &Names::textures, "texture", name, error);
+bendy_status bendy::capi::find_texture(const bendy_model* model, const char* name, uint32_t& made, bendy_error* error) {
+    return find(model->character->names.textures, "texture", name, made, error);
 }
 
 const uint32_t* bendy_joint_parents(const bendy_model* model) {
@@ -150,59 +107,59 @@ const char* bendy_file_extras(const bendy_model* model) {
     return model == nullptr ? nullptr : model->character->names.file_extras.c_str();
 }
 
-bendy_status bendy_get_joint(const bendy_model* model, uint32_t joint, bendy_joint* out, bendy_error* error) {
-    return get(model, &Names::joints, "joint", joint, out, error, [&](const bendy::Model& from, bendy_joint& value) {
-        const bendy::Joint& view = from.joints()[joint];
-        value.parent = view.parent;
-        value.rest = to_c(view.rest);
-        for (int c = 0; c < 3; ++c) value.shear[c] = view.shear[c];
-        value.extras = model->character->names.joint_extras[joint].c_str();
-    });
+bendy_status bendy::capi::get_joint(const bendy_model* model, uint32_t joint, bendy_joint& out,
+                                    bendy_error* /*error*/) {
+    const Names& names = model->character->names;
+    to_c(model->get().joints()[joint], out);
+    out.name = names.joints[joint].c_str();
+    out.extras = names.joint_extras[joint].c_str();
+    return BENDY_OK;
 }
 
-bendy_status bendy_get_clip(const bendy_model* model, uint32_t clip, bendy_clip* out, bendy_error* error) {
-    return get(model, &Names::clips, "clip", clip, out, error, [&](const bendy::Model& from, bendy_clip& value) {
-        const bendy::Clip& view = from.clips()[clip];
-        value.start = view.start;
-        value.end = view.end;
-        value.frame_rate = view.frame_rate;
-        value.loops = view.loop ? 1 : 0;
-        value.is_packed = view.packed ? 1 : 0;
-        put_json(model->character->names.clip_json[clip], value);
-    });
+bendy_status bendy::capi::get_clip(const bendy_model* model, uint32_t clip, bendy_clip& out, bendy_error* /*error*/) {
+    const bendy::Clip& view = model->get().clips()[clip];
+    out.name = model->character->names.clips[clip].c_str();
+    out.start = view.start;
+    out.end = view.end;
+    out.frame_rate = view.frame_rate;
+    out.loops = view.loop ? 1 : 0;
+    out.is_packed = view.packed ? 1 : 0;
+    put_json(model->character->names.clip_json[clip], out);
+    return BENDY_OK;
 }
 
-bendy_status bendy_get_chain(const bendy_model* model, uint32_t chain, bendy_chain* out, bendy_error* error) {
-    return get(model, &Names::chains, "chain", chain, out, error, [&](const bendy::Model& from, bendy_chain& value) {
-        const bendy::Chain& view = from.chains()[chain];
-        value.start = view.start;
-        value.effector = view.effector;
-        value.links = view.links;
-        value.target = view.target;
-        value.pole = view.pole;
-        describe_chain(view.record, value);
-        value.extras = model->character->names.chain_extras[chain].c_str();
-    });
+bendy_status bendy::capi::get_chain(const bendy_model* model, uint32_t chain, bendy_chain& out,
+                                    bendy_error* /*error*/) {
+    const bendy::Chain& view = model->get().chains()[chain];
+    const Names& names = model->character->names;
+    to_c(view.record, out);
+    out.name = names.chains[chain].c_str();
+    out.start = view.start;
+    out.effector = view.effector;
+    out.links = view.links;
+    out.target = view.target;
+    out.pole = view.pole;
+    out.extras = names.chain_extras[chain].c_str();
+    return BENDY_OK;
 }
 
-bendy_status bendy_get_morph_target(const bendy_model* model, uint32_t target, bendy_morph_target* out,
-                                    bendy_error* error) {
-    return get(model, &Names::targets, "target", target, out, error,
-               [&](const bendy::Model& from, bendy_morph_target& value) {
-                   value.mesh = model->character->target_meshes[target];
-                   const bendy::Mesh& mesh = from.meshes()[value.mesh];
-                   const bendy::MorphTargetView& view = mesh.targets[target - from.first_morph_target(value.mesh)];
-                   value.rest_weight = view.rest_weight;
-                   value.vertices = view.touched(mesh.vertices);
-                   value.has_positions = view.positions ? 1 : 0;
-                   value.has_normals = view.normals && mesh.normals ? 1 : 0;
-                   value.has_tangents = view.tangents && mesh.tangents ? 1 : 0;
-               });
+bendy_status bendy::capi::get_morph_target(const bendy_model* model, uint32_t morph_target, bendy_morph_target& out,
+                                           bendy_error* /*error*/) {
+    out.name = model->character->names.targets[morph_target].c_str();
+    out.mesh = model->character->target_meshes[morph_target];
+    const bendy::Mesh& mesh = model->get().meshes()[out.mesh];
+    const bendy::MorphTargetView& view = mesh.targets[morph_target - model->get().first_morph_target(out.mesh)];
+    out.rest_weight = view.rest_weight;
+    out.vertices = view.touched(mesh.vertices);
+    out.has_positions = view.positions ? 1 : 0;
+    out.has_normals = view.normals && mesh.normals ? 1 : 0;
+    out.has_tangents = view.tangents && mesh.tangents ? 1 : 0;
+    return BENDY_OK;
 }
 
-bendy_status bendy_get_mesh(const bendy_model* model, uint32_t mesh, bendy_mesh* out, bendy_error* error) {
-    return get(model, &Names::meshes, "mesh", mesh, out, error, [&](const bendy::Model& from, bendy_mesh& value) {
-        describe_mesh(from, mesh, value);
-        put_json(model->character->names.mesh_json[mesh], value);
-    });
+bendy_status bendy::capi::get_mesh(const bendy_model* model, uint32_t mesh, bendy_mesh& out, bendy_error* /*error*/) {
+    describe_mesh(model->get(), mesh, out);
+    out.name = model->character->names.meshes[mesh].c_str();
+    put_json(model->character->names.mesh_json[mesh], out);
+    return BENDY_OK;
 }

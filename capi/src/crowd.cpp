@@ -1,5 +1,7 @@
 // Many characters of one model.
+#include "calls.h"
 #include "fail.h"
+#include "fields.h"
 #include "handles.h"
 #include "lookup.h"
 #include "matrices.h"
@@ -35,8 +37,8 @@ bendy_status take_member(const Character& character, const bendy_crowd_member* m
     const Model& model = character.model;
     taken = {};
     if (has_clip && values.clip != BENDY_NONE) {
-        if (const bendy_status status = check_clip_of(character, values.clip, error)) return status;
-        if (const bendy_status status = check_seconds(values.seconds, error)) return status;
+        if (const bendy_status status = check_index(values.clip, Parts(character).clip(), "clip", error)) return status;
+        if (const bendy_status status = check_number(values.seconds, "seconds", error)) return status;
         taken.member.clip = &model.clips()[values.clip];
         taken.member.seconds = values.seconds;
     }
@@ -47,14 +49,15 @@ bendy_status take_member(const Character& character, const bendy_crowd_member* m
     }
     taken.palette = values.palette;
     if (values.vertices == nullptr) return BENDY_OK;
-    return take_buffer(values.vertices, model.vertex_count(), taken.member.out, error);
+    bendy_vertices vertices = BENDY_VERTICES_INIT;
+    if (const bendy_status status = take(values.vertices, "out", vertices, error)) return status;
+    return take_buffer(vertices, model.vertex_count(), taken.member.out, error);
 }
 
 /// Plays the members; set_pose(number, member, pose) sets the pose of each.
 template <class SetPose>
 bendy_status play(bendy_crowd* crowd, const bendy_crowd_member* members, std::size_t count, std::uint32_t worker,
                   bool has_clips, const SetPose& set_pose, bendy_error* error) {
-    if (const bendy_status status = check_pointer(crowd, "crowd", error)) return status;
     if (const bendy_status status = check_index(worker, crowd->crowd.workers(), "worker", error, "the crowd"))
         return status;
     if (const bendy_status status = check_array(members, count, "members", error)) return status;
@@ -98,23 +101,14 @@ bendy_status play(bendy_crowd* crowd, const bendy_crowd_member* members, std::si
 
 using namespace bendy::capi;
 
-bendy_crowd* bendy_crowd_new(const bendy_model* model, uint32_t workers, bendy_error* error) {
-    bendy_crowd* crowd = nullptr;
-    guarded(error, [&] {
-        if (const bendy_status status = check_pointer(model, "model", error)) return status;
-        if (workers > kMostWorkers) {
-            return fail(
-                error, BENDY_BAD_ARGUMENT,
-                "expected at most " + std::to_string(kMostWorkers) + " workers, found " + std::to_string(workers));
-        }
-        crowd = std::make_unique<bendy_crowd>(model->character, workers).release();
-        return BENDY_OK;
-    });
-    return crowd;
-}
-
-void bendy_crowd_free(bendy_crowd* crowd) {
-    delete crowd;
+bendy_status bendy::capi::crowd_new(const bendy_model* model, uint32_t workers, bendy_crowd*& made,
+                                    bendy_error* error) {
+    if (workers > kMostWorkers) {
+        return fail(error, BENDY_BAD_ARGUMENT,
+                    "expected at most " + std::to_string(kMostWorkers) + " workers, found " + std::to_string(workers));
+    }
+    made = std::make_unique<bendy_crowd>(model->character, workers).release();
+    return BENDY_OK;
 }
 
 uint32_t bendy_crowd_workers(const bendy_crowd* crowd) {
@@ -130,25 +124,21 @@ size_t bendy_crowd_first_matrix(const bendy_crowd* crowd, uint32_t mesh) {
     return crowd->crowd.first_entry(mesh);
 }
 
-bendy_status bendy_crowd_play(bendy_crowd* crowd, const bendy_crowd_member* members, size_t count, uint32_t worker,
-                              bendy_error* error) {
-    return guarded(error, [&] {
-        const auto sample_clip = [](std::size_t, const bendy::CrowdMember& member, bendy::Pose& pose) {
-            (void)bendy::sample(pose, member.clip, member.seconds);  // without a clip: the rest pose
-        };
-        return play(crowd, members, count, worker, true, sample_clip, error);
-    });
+bendy_status bendy::capi::crowd_play(bendy_crowd* crowd, const bendy_crowd_member* members, size_t count,
+                                     uint32_t worker, bendy_error* error) {
+    const auto sample_clip = [](std::size_t, const bendy::CrowdMember& member, bendy::Pose& pose) {
+        (void)bendy::sample(pose, member.clip, member.seconds);  // without a clip: the rest pose
+    };
+    return play(crowd, members, count, worker, true, sample_clip, error);
 }
 
-bendy_status bendy_crowd_play_posed(bendy_crowd* crowd, const bendy_crowd_member* members, size_t count,
-                                    uint32_t worker, bendy_pose_member pose_member, void* user, bendy_error* error) {
-    return guarded(error, [&] {
-        if (pose_member == nullptr) return fail(error, BENDY_BAD_ARGUMENT, "pose_member is NULL");
-        const auto call = [&](std::size_t number, const bendy::CrowdMember&, bendy::Pose& pose) {
-            bendy_pose handle(crowd->character, std::move(pose));  // the worker's pose, lent to the caller
-            pose_member(user, number, &handle);
-            pose = std::move(handle.pose);
-        };
-        return play(crowd, members, count, worker, false, call, error);
-    });
+bendy_status bendy::capi::crowd_play_posed(bendy_crowd* crowd, const bendy_crowd_member* members, size_t count,
+                                           uint32_t worker, bendy_pose_member pose_member, void* user,
+                                           bendy_error* error) {
+    const auto call = [&](std::size_t number, const bendy::CrowdMember&, bendy::Pose& pose) {
+        bendy_pose handle(crowd->character, std::move(pose));  // the worker's pose, lent to the caller
+        pose_member(user, number, &handle);
+        pose = std::move(handle.pose);
+    };
+    return play(crowd, members, count, worker, false, call, error);
 }

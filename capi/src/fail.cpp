@@ -104,10 +104,10 @@ bendy_status check_room(std::uint64_t room, std::uint64_t needed, const char* na
         std::string(name) + " has room for " + std::to_string(room) + ", " + std::to_string(needed) + " are needed");
 }
 
-bendy_status check_value(std::uint32_t value, std::uint32_t count, const char* kind, bendy_error* error) {
+bendy_status check_value(std::uint32_t value, std::uint32_t count, const char* name, const char* kind,
+                         bendy_error* error) {
     if (value < count) return BENDY_OK;
-    return fail(error, BENDY_BAD_ARGUMENT,
-                std::string(kind) + ' ' + std::to_string(value) + " is none of the known ones");
+    return fail(error, BENDY_BAD_ARGUMENT, std::string(name) + ' ' + std::to_string(value) + " is not a " + kind);
 }
 
 namespace {
@@ -138,6 +138,15 @@ bendy_status check_finite(std::span<const float> numbers, const char* name, bend
 
 bendy_status check_finite(std::span<const double> numbers, const char* name, bendy_error* error) {
     return check_numbers(numbers, name, error);
+}
+
+bendy_status check_number(double number, const char* name, bendy_error* error) {
+    return std::isnan(number) ? fail(error, BENDY_BAD_ARGUMENT, std::string(name) + " is not a number") : BENDY_OK;
+}
+
+bendy_status check_fraction(double number, const char* name, bendy_error* error) {
+    if (number >= 0.0 && number <= 1.0) return BENDY_OK;
+    return fail(error, BENDY_BAD_ARGUMENT, std::string(name) + " must lie between 0 and 1");
 }
 
 bendy_status check_rotation(const float* rotation, bendy_error* error) {

@@ -27,6 +27,10 @@ bendy_status from_call(const Result<void, CallError>& result, bendy_error* error
 
 /// Returns BENDY_OK, or the error "NAME is NULL".
 bendy_status check_pointer(const void* pointer, const char* name, bendy_error* error);
+template <class Result, class... Taken>
+bendy_status check_pointer(Result (*function)(Taken...), const char* name, bendy_error* error) {
+    return check_pointer(function == nullptr ? nullptr : name, name, error);
+}
 /// Returns BENDY_OK, or an error; `kind` is the kind of thing that is indexed: "joint"; `owner` what has these things.
 bendy_status check_index(std::uint32_t index, std::size_t count, const char* kind, bendy_error* error,
                          const char* owner = "the model");
@@ -37,11 +41,20 @@ bendy_status check_range(std::uint32_t first, std::uint32_t count, std::size_t a
 bendy_status check_room(std::uint64_t room, std::uint64_t needed, const char* name, bendy_error* error);
 bendy_status check_finite(std::span<const float> numbers, const char* name, bendy_error* error);
 bendy_status check_finite(std::span<const double> numbers, const char* name, bendy_error* error);
+template <class Number>
+requires std::is_arithmetic_v<Number> bendy_status check_finite(const Number& number, const char* name,
+                                                                bendy_error* error) {
+    return check_finite(std::span(&number, 1), name, error);
+}
+/// Checks that a number, which may be infinite, is not NaN.
+bendy_status check_number(double number, const char* name, bendy_error* error);
+bendy_status check_fraction(double number, const char* name, bendy_error* error);
 /// Checks that a rotation consists of four finite numbers, with length 1 within 0.01.
 bendy_status check_rotation(const float* rotation, bendy_error* error);
 bendy_status check_rotation(const double* rotation, bendy_error* error);
-/// Checks a number of an enumeration with `count` values, from 0 on; `kind` is the kind of value: "solver".
-bendy_status check_value(std::uint32_t value, std::uint32_t count, const char* kind, bendy_error* error);
+/// Checks a value of an enumeration, `kind`, which has `count` of them, from 0 on.
+bendy_status check_value(std::uint32_t value, std::uint32_t count, const char* name, const char* kind,
+                         bendy_error* error);
 
 /// Returns the result of call(). Converts running out of memory into an error, so that no exception reaches C.
 template <class Call>

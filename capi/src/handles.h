@@ -23,12 +23,6 @@
 // The objects behind the handles. All handles of one model share the Character, which is freed with the last of them.
 namespace bendy::capi {
 
-inline bendy_transform to_c(const JointTransform& from) {
-    return {{from.rotation.x, from.rotation.y, from.rotation.z, from.rotation.w},
-            {from.translation.x, from.translation.y, from.translation.z},
-            {from.scale.x, from.scale.y, from.scale.z}};
-}
-
 struct CurveNames {
     std::string name, path;
 };

@@ -1,5 +1,7 @@
 // The kernels of this machine, and the one in use.
+#include "calls.h"
 #include "fail.h"
+#include "fields.h"
 
 #include <bendy/runtime/kernels.h>
 
@@ -20,17 +22,14 @@ const char* bendy_kernel() {
     return bendy::kernel_name(bendy::kernel()).data();  // a literal
 }
 
-bendy_status bendy_set_kernel(const char* name, bendy_error* error) {
-    return guarded(error, [&] {
-        if (const bendy_status status = check_pointer(name, "name", error)) return status;
-        std::string there;
-        for (const bendy::Kernel kernel : bendy::kernels()) {
-            if (bendy::kernel_name(kernel) == name) {
-                return from_call(bendy::set_kernel(kernel), error);
-            }
-            there += (there.empty() ? "" : ", ") + std::string(bendy::kernel_name(kernel));
+bendy_status bendy::capi::set_kernel(const char* name, bendy_error* error) {
+    std::string there;
+    for (const bendy::Kernel kernel : bendy::kernels()) {
+        if (bendy::kernel_name(kernel) == name) {
+            return from_call(bendy::set_kernel(kernel), error);
         }
-        return fail(error, BENDY_NOT_FOUND,
-                    "there is no kernel \"" + std::string(name) + "\" on this machine; there are: " + there);
-    });
+        there += (there.empty() ? "" : ", ") + std::string(bendy::kernel_name(kernel));
+    }
+    return fail(error, BENDY_NOT_FOUND,
+                "there is no kernel \"" + std::string(name) + "\" on this machine; there are: " + there);
 }

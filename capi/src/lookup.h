@@ -3,44 +3,66 @@
 #include "fail.h"
 #include "handles.h"
 
-#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <string>
-#include <vector>
 
-// Finding what a call is about: the items of a model by their numbers.
+// Finding what a call is about: the parts of a model by their numbers.
 namespace bendy::capi {
 
-using NameList = std::vector<std::string> Names::*;
+/// The number of streams of a mesh.
+std::uint32_t count_streams(const Mesh& mesh);
 
-inline std::uint32_t count_of(const bendy_model* model, NameList list) {
-    return model == nullptr ? 0 : static_cast<std::uint32_t>((model->character->names.*list).size());
+/// How many parts of each kind there are: of a model, or of its clip, mesh or texture of that number.
+class Parts {
+public:
+    explicit Parts(const Character& of) : model_(of.model), targets_(of.target_meshes.size()) {}
+
+    [[nodiscard]] std::size_t joint() const { return model_.joints().size(); }
+    [[nodiscard]] std::size_t clip() const { return model_.clips().size(); }
+    [[nodiscard]] std::size_t chain() const { return model_.chains().size(); }
+    [[nodiscard]] std::size_t morph_target() const { return targets_; }
+    [[nodiscard]] std::size_t mesh() const { return model_.meshes().size(); }
+    [[nodiscard]] std::size_t submesh() const { return model_.submeshes().size(); }
+    [[nodiscard]] std::size_t joint_submesh() const { return model_.joint_submeshes().size(); }
+    [[nodiscard]] std::size_t material() const { return model_.materials().size(); }
+    [[nodiscard]] std::size_t texture() const { return model_.textures().size(); }
+    [[nodiscard]] std::size_t constraint() const { return model_.constraints().size(); }
+    [[nodiscard]] std::size_t track(std::uint32_t clip) const { return model_.clips()[clip].tracks.size(); }
+    [[nodiscard]] std::size_t marker(std::uint32_t clip) const { return model_.clips()[clip].markers.size(); }
+    [[nodiscard]] std::size_t curve(std::uint32_t clip) const { return model_.clips()[clip].curves.size(); }
+    [[nodiscard]] std::size_t frame_sequence(std::uint32_t clip) const { return model_.clips()[clip].plays.size(); }
+    [[nodiscard]] std::size_t stream(std::uint32_t mesh) const { return count_streams(model_.meshes()[mesh]); }
+    [[nodiscard]] std::size_t image(std::uint32_t texture) const { return model_.textures()[texture].images.size(); }
+
+private:
+    const Model& model_;
+    std::size_t targets_;
+};
+
+/// The parts that calls on a handle name; of a binding, those of the animated model.
+template <class Handle>
+Parts parts(const Handle& handle) {
+    return Parts(*handle.character);
+}
+inline Parts parts(const bendy_binding& binding) {
+    return Parts(*binding.animated);
 }
 
-/// Fills `out` with make(model, names), if `index` is one of `list`.
-template <class Out, class Make>
-bendy_status get(const bendy_model* model, NameList list, const char* kind, std::uint32_t index, Out* out,
-                 bendy_error* error, const Make& make) {
-    return guarded(error, [&] {
-        if (const bendy_status status = check_pointer(model, "model", error)) return status;
-        if (const bendy_status status = check_index(index, count_of(model, list), kind, error)) return status;
-        if (const bendy_status status = check_out(out, "out", error)) return status;
-        Out value{};
-        value.name = (model->character->names.*list)[index].c_str();
-        make(model->get(), value);
-        put(*out, value);
-        return BENDY_OK;
-    });
+template <class Handle>
+const Character& character_of(const Handle& handle) {
+    return *handle.character;
+}
+inline const Character& character_of(const bendy_binding& binding) {
+    return *binding.posed;
 }
 
-template <class Out>
-void put_json(const Json& json, Out& out) {
-    out.extras = json.extras.c_str();
-    out.more = json.more.c_str();
-}
-
-inline bendy_status check_mesh(const bendy_model* model, std::uint32_t mesh, bendy_error* error) {
-    if (const bendy_status status = check_pointer(model, "model", error)) return status;
-    return check_index(mesh, model->get().meshes().size(), "mesh", error);
+/// Checks that two handles, if there are two, belong to one model.
+template <class Handle, class Other>
+bendy_status check_same_model(const Handle* handle, const Other& other, const char* name, const char* what,
+                              bendy_error* error) {
+    if (handle == nullptr || &character_of(*handle) == &character_of(other)) return BENDY_OK;
+    return fail(error, BENDY_BAD_ARGUMENT, std::string(name) + " is of another model than " + what);
 }
 
 /// Checks that a mesh has bones.
@@ -49,40 +71,10 @@ inline bendy_status check_skinned(const Mesh& mesh, std::uint32_t number, bendy_
     return fail(error, BENDY_BAD_ARGUMENT, "mesh " + std::to_string(number) + " is rigid: it has no bones");
 }
 
-inline bendy_status check_clip(const bendy_model* model, std::uint32_t clip, bendy_error* error) {
-    if (const bendy_status status = check_pointer(model, "model", error)) return status;
-    return check_index(clip, model->get().clips().size(), "clip", error);
-}
-
-/// Checks that a pose, which is called `name`, is one of the character that `what` belongs to.
-inline bendy_status check_pose_of(const bendy_pose* pose, const Character& character, const char* name,
-                                  const char* what, bendy_error* error) {
-    if (const bendy_status status = check_pointer(pose, name, error)) return status;
-    if (pose->character.get() == &character) return BENDY_OK;
-    return fail(error, BENDY_BAD_ARGUMENT, std::string(name) + " is a pose of another model than " + what);
-}
-
-inline bendy_status check_clip_of(const Character& character, std::uint32_t clip, bendy_error* error) {
-    return check_index(clip, character.model.clips().size(), "clip", error);
-}
-
-/// Checks that a time is a number.
-inline bendy_status check_seconds(float seconds, bendy_error* error) {
-    return std::isnan(seconds) ? fail(error, BENDY_BAD_ARGUMENT, "seconds is not a number") : BENDY_OK;
-}
-
-/// Checks a clip, and the number of one of its `things`: a member of Clip.
-template <class Things>
-bendy_status check_in_clip(const bendy_model* model, std::uint32_t clip, Things Clip::*things, std::uint32_t number,
-                           const char* kind, bendy_error* error) {
-    if (const bendy_status status = check_clip(model, clip, error)) return status;
-    return check_index(number, (model->get().clips()[clip].*things).size(), kind, error, "the clip");
-}
-
-template <class Things>
-std::uint32_t count_in_clip(const bendy_model* model, std::uint32_t clip, Things Clip::*things) {
-    if (model == nullptr || clip >= model->get().clips().size()) return 0;
-    return static_cast<std::uint32_t>((model->get().clips()[clip].*things).size());
+template <class Out>
+void put_json(const Json& json, Out& out) {
+    out.extras = json.extras.c_str();
+    out.more = json.more.c_str();
 }
 
 }  // namespace bendy::capi

@@ -1,5 +1,7 @@
 // Opening and closing models; the version of the library.
+#include "calls.h"
 #include "fail.h"
+#include "fields.h"
 #include "handles.h"
 
 #include <bendy/format/diagnostics.h>
@@ -75,13 +77,12 @@ Names names_in(const Model& model) {
     return names;
 }
 
-bendy_status take_options(const bendy_open_options* options, OpenOptions& taken, bendy_error* error) {
-    bendy_open_options values = BENDY_OPEN_OPTIONS_INIT;
-    if (const bendy_status status = take(options, "options", values, error)) return status;
-    taken.object = values.object;
-    taken.sums = values.sums_later != 0 ? Sums::later : Sums::checked;
-    taken.storage = values.copied != 0 ? Storage::copied : Storage::mapped;
-    return BENDY_OK;
+OpenOptions from_c(const bendy_open_options& options) {
+    OpenOptions taken;
+    taken.object = options.object;
+    taken.sums = options.sums_later != 0 ? Sums::later : Sums::checked;
+    taken.storage = options.copied != 0 ? Storage::copied : Storage::mapped;
+    return taken;
 }
 
 bendy_status open_source(Source source, const OpenOptions& options, bendy_model*& out, bendy_error* error) {
@@ -94,10 +95,8 @@ bendy_status open_source(Source source, const OpenOptions& options, bendy_model*
     return BENDY_OK;
 }
 
-bendy_status open_memory(const void* data, std::size_t size, bool copies, const bendy_open_options* options,
+bendy_status open_memory(const void* data, std::size_t size, bool copies, const bendy_open_options& options,
                          bendy_model*& out, bendy_error* error) {
-    OpenOptions taken;
-    if (const bendy_status status = take_options(options, taken, error)) return status;
     if (size != 0) {
         if (const bendy_status status = check_pointer(data, "bytes", error)) return status;
     }
@@ -108,7 +107,7 @@ bendy_status open_memory(const void* data, std::size_t size, bool copies, const 
         std::memcpy(source.copy.span().data(), data, size);
         source.bytes = source.copy.bytes();
     }
-    return open_source(std::move(source), taken, out, error);
+    return open_source(std::move(source), from_c(options), out, error);
 }
 
 constexpr bool kNamesAreUnicode = std::is_same_v<std::filesystem::path::value_type, wchar_t>;  // on Windows
@@ -130,47 +129,32 @@ Character::Character(Source from, Model loaded)
 
 using namespace bendy::capi;
 
-bendy_model* bendy_open(const char* path, const bendy_open_options* options, bendy_error* error) {
-    bendy_model* model = nullptr;
-    guarded(error, [&] {
-        if (const bendy_status status = check_pointer(path, "path", error)) return status;
-        if (kNamesAreUnicode && !bendy::is_utf8(path)) return fail(error, BENDY_BAD_ARGUMENT, "path is not UTF-8");
-        bendy::OpenOptions taken;
-        if (const bendy_status status = take_options(options, taken, error)) return status;
-        const bool copies = taken.storage == bendy::Storage::copied;
-        auto file = copies ? bendy::MappedFile::read(path_of(path)) : bendy::MappedFile::open(path_of(path));
-        if (!file) return fail(error, file.error(), {});
-        Source source;
-        source.file = *std::move(file);
-        source.bytes = source.file.bytes();
-        return open_source(std::move(source), taken, model, error);
-    });
-    return model;
+bendy_status bendy::capi::open(const char* path, const bendy_open_options& options, bendy_model*& made,
+                               bendy_error* error) {
+    if (kNamesAreUnicode && !bendy::is_utf8(path)) return fail(error, BENDY_BAD_ARGUMENT, "path is not UTF-8");
+    const bendy::OpenOptions taken = from_c(options);
+    const bool copies = taken.storage == bendy::Storage::copied;
+    auto file = copies ? bendy::MappedFile::read(path_of(path)) : bendy::MappedFile::open(path_of(path));
+    if (!file) return fail(error, file.error(), {});
+    Source source;
+    source.file = *std::move(file);
+    source.bytes = source.file.bytes();
+    return open_source(std::move(source), taken, made, error);
 }
 
-bendy_model* bendy_open_copy(const void* bytes, size_t size, const bendy_open_options* options, bendy_error* error) {
-    bendy_model* model = nullptr;
-    guarded(error, [&] { return open_memory(bytes, size, true, options, model, error); });
-    return model;
+bendy_status bendy::capi::open_copy(const void* bytes, size_t size, const bendy_open_options& options,
+                                    bendy_model*& made, bendy_error* error) {
+    return open_memory(bytes, size, true, options, made, error);
 }
 
-bendy_model* bendy_open_borrowed(const void* bytes, size_t size, const bendy_open_options* options,
-                                 bendy_error* error) {
-    bendy_model* model = nullptr;
-    guarded(error, [&] { return open_memory(bytes, size, false, options, model, error); });
-    return model;
+bendy_status bendy::capi::open_borrowed(const void* bytes, size_t size, const bendy_open_options& options,
+                                        bendy_model*& made, bendy_error* error) {
+    return open_memory(bytes, size, false, options, made, error);
 }
 
-void bendy_close(bendy_model* model) {
-    delete model;
-}
-
-bendy_status bendy_check_sums(const bendy_model* model, bendy_error* error) {
-    return guarded(error, [&] {
-        if (const bendy_status status = check_pointer(model, "model", error)) return status;
-        const auto checked = model->get().check_sums();
-        return checked ? BENDY_OK : fail(error, checked.error(), model->character->source.bytes);
-    });
+bendy_status bendy::capi::check_sums(const bendy_model* model, bendy_error* error) {
+    const auto checked = model->get().check_sums();
+    return checked ? BENDY_OK : fail(error, checked.error(), model->character->source.bytes);
 }
 
 uint32_t bendy_version() {

@@ -1,5 +1,7 @@
 // The streams of a mesh: vertex attributes and the index list, as they are stored or decoded.
+#include "calls.h"
 #include "fail.h"
+#include "fields.h"
 #include "handles.h"
 #include "lookup.h"
 
@@ -32,23 +34,13 @@ void visit_streams(const Mesh& mesh, const Visit& visit) {
     visit_one(BENDY_STREAM_INDICES, mesh.indices);
 }
 
-std::uint32_t count_streams(const Mesh& mesh) {
-    std::uint32_t count = 0;
-    visit_streams(mesh, [&](const MeshStream&) { ++count; });
-    return count;
-}
-
-/// Finds the stream with that number; `out.view` is null on failure.
-bendy_status find_stream(const bendy_model* model, std::uint32_t mesh, std::uint32_t number, MeshStream& out,
-                         bendy_error* error) {
-    if (const bendy_status status = check_mesh(model, mesh, error)) return status;
-    const Mesh& view = model->get().meshes()[mesh];
-    if (const bendy_status status = check_index(number, count_streams(view), "stream", error, "the mesh"))
-        return status;
-    visit_streams(view, [&](const MeshStream& stream) {
-        if (number-- == 0) out = stream;
+/// Returns the stream with that number, which the mesh has.
+MeshStream stream_of(const bendy_model* model, std::uint32_t mesh, std::uint32_t number) {
+    MeshStream found;
+    visit_streams(model->get().meshes()[mesh], [&](const MeshStream& stream) {
+        if (number-- == 0) found = stream;
     });
-    return BENDY_OK;
+    return found;
 }
 
 /// Numbers per element once it is decoded: directions are stored with fewer, or as places in a list.
@@ -94,82 +86,60 @@ std::uint64_t number_count(const MeshStream& stream) {
 }
 
 }  // namespace
+
+std::uint32_t count_streams(const Mesh& mesh) {
+    std::uint32_t count = 0;
+    visit_streams(mesh, [&](const MeshStream&) { ++count; });
+    return count;
+}
+
 }  // namespace bendy::capi
 
 using namespace bendy::capi;
 
-uint32_t bendy_stream_count(const bendy_model* model, uint32_t mesh) {
-    if (model == nullptr || mesh >= model->get().meshes().size()) return 0;
-    return count_streams(model->get().meshes()[mesh]);
+bendy_status bendy::capi::find_stream(const bendy_model* model, uint32_t mesh, uint32_t kind, uint32_t set,
+                                      uint32_t& made, bendy_error* error) {
+    std::uint32_t number = 0;
+    visit_streams(model->get().meshes()[mesh], [&](const MeshStream& stream) {
+        if (made == BENDY_NONE && stream.kind == kind && stream.view->set == set) made = number;
+        ++number;
+    });
+    if (made != BENDY_NONE) return BENDY_OK;
+    return fail(error, BENDY_NOT_FOUND,
+                "mesh " + std::to_string(mesh) + " has no such stream of set " + std::to_string(set));
 }
 
-uint32_t bendy_find_stream(const bendy_model* model, uint32_t mesh, uint32_t kind, uint32_t set, bendy_error* error) {
-    std::uint32_t found = BENDY_NONE;
-    guarded(error, [&] {
-        if (const bendy_status status = check_mesh(model, mesh, error)) return status;
-        if (const bendy_status status = check_value(kind, BENDY_STREAM_INDICES + 1, "kind of stream", error))
-            return status;
-        std::uint32_t number = 0;
-        visit_streams(model->get().meshes()[mesh], [&](const MeshStream& stream) {
-            if (found == BENDY_NONE && stream.kind == kind && stream.view->set == set) found = number;
-            ++number;
-        });
-        if (found != BENDY_NONE) return BENDY_OK;
-        return fail(error, BENDY_NOT_FOUND,
-                    "mesh " + std::to_string(mesh) + " has no such stream of set " + std::to_string(set));
-    });
-    return found;
+bendy_status bendy::capi::get_stream(const bendy_model* model, uint32_t mesh, uint32_t stream, bendy_stream& out,
+                                     bendy_error* /*error*/) {
+    const MeshStream found = stream_of(model, mesh, stream);
+    const bendy::StreamView& view = *found.view;
+    to_c(view, out);
+    out.kind = found.kind;
+    out.name =
+        found.kind == BENDY_STREAM_ATTRIBUTE ? model->character->names.attributes[mesh][found.attribute].c_str() : "";
+    out.components = decoded_components(found);
+    if (is_plain(view)) {
+        out.data = view.data.data();
+        out.data_size = view.data.size();
+    }
+    return BENDY_OK;
 }
 
-bendy_status bendy_get_stream(const bendy_model* model, uint32_t mesh, uint32_t stream, bendy_stream* out,
-                              bendy_error* error) {
-    return guarded(error, [&] {
-        MeshStream found;
-        if (const bendy_status status = find_stream(model, mesh, stream, found, error)) return status;
-        if (const bendy_status status = check_out(out, "out", error)) return status;
-        const bendy::StreamView& view = *found.view;
-        bendy_stream value{};
-        value.kind = found.kind;
-        value.name = found.kind == BENDY_STREAM_ATTRIBUTE
-                         ? model->character->names.attributes[mesh][found.attribute].c_str()
-                         : "";
-        value.set = view.set;
-        value.elements = view.elements;
-        value.components = decoded_components(found);
-        value.type = static_cast<std::uint32_t>(view.type);
-        value.normalised = view.normalised ? 1 : 0;
-        if (is_plain(view)) {
-            value.data = view.data.data();
-            value.data_size = view.data.size();
-        }
-        put(*out, value);
-        return BENDY_OK;
-    });
+bendy_status bendy::capi::get_numbers(const bendy_model* model, uint32_t mesh, uint32_t stream, float* numbers,
+                                      size_t count, bendy_error* error) {
+    const MeshStream found = stream_of(model, mesh, stream);
+    if (const bendy_status status = check_room(count, number_count(found), "numbers", error)) return status;
+    copy_numbers(found, numbers);
+    return BENDY_OK;
 }
 
-bendy_status bendy_get_numbers(const bendy_model* model, uint32_t mesh, uint32_t stream, float* numbers, size_t count,
-                               bendy_error* error) {
-    return guarded(error, [&] {
-        MeshStream found;
-        if (const bendy_status status = find_stream(model, mesh, stream, found, error)) return status;
-        if (const bendy_status status = check_pointer(numbers, "numbers", error)) return status;
-        if (const bendy_status status = check_room(count, number_count(found), "numbers", error)) return status;
-        copy_numbers(found, numbers);
-        return BENDY_OK;
-    });
-}
-
-bendy_status bendy_get_integers(const bendy_model* model, uint32_t mesh, uint32_t stream, uint32_t* integers,
-                                size_t count, bendy_error* error) {
-    return guarded(error, [&] {
-        MeshStream found;
-        if (const bendy_status status = find_stream(model, mesh, stream, found, error)) return status;
-        if (const bendy_status status = check_integers(*found.view, error)) return status;
-        if (const bendy_status status = check_pointer(integers, "integers", error)) return status;
-        if (const bendy_status status = check_room(count, number_count(found), "integers", error)) return status;
-        for (std::uint32_t element = 0; element < found.view->elements; ++element) {
-            for (std::uint32_t c = 0; c < found.view->components; ++c) *integers++ = found.view->index(element, c);
-        }
-        return BENDY_OK;
-    });
+bendy_status bendy::capi::get_integers(const bendy_model* model, uint32_t mesh, uint32_t stream, uint32_t* integers,
+                                       size_t count, bendy_error* error) {
+    const MeshStream found = stream_of(model, mesh, stream);
+    if (const bendy_status status = check_integers(*found.view, error)) return status;
+    if (const bendy_status status = check_room(count, number_count(found), "integers", error)) return status;
+    for (std::uint32_t element = 0; element < found.view->elements; ++element) {
+        for (std::uint32_t c = 0; c < found.view->components; ++c) *integers++ = found.view->index(element, c);
+    }
+    return BENDY_OK;
 }

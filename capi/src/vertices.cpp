@@ -32,10 +32,7 @@ bendy_status take_array(float* data, std::size_t stride, std::size_t numbers, st
 
 }  // namespace
 
-bendy_status take_buffer(const bendy_vertices* vertices, std::uint64_t needed, VertexBuffer& out, bendy_error* error) {
-    if (const bendy_status status = check_pointer(vertices, "out", error)) return status;
-    bendy_vertices values = BENDY_VERTICES_INIT;
-    if (const bendy_status status = take(vertices, "out", values, error)) return status;
+bendy_status take_buffer(const bendy_vertices& values, std::uint64_t needed, VertexBuffer& out, bendy_error* error) {
     if (const bendy_status status = check_room(values.capacity, needed, "out", error)) return status;
     if (const bendy_status status =
             take_array(values.positions, values.position_stride, 3, needed, "positions", out.positions, error))

@@ -8,6 +8,6 @@
 namespace bendy::capi {
 
 /// Checks the caller's memory for `needed` vertices, and takes it.
-bendy_status take_buffer(const bendy_vertices* vertices, std::uint64_t needed, VertexBuffer& out, bendy_error* error);
+bendy_status take_buffer(const bendy_vertices& values, std::uint64_t needed, VertexBuffer& out, bendy_error* error);
 
 }  // namespace bendy::capi

@@ -166,7 +166,7 @@ TEST_F(CArguments, NumbersThatAreNoneAreErrors) {
     bendy_reach_options options = BENDY_REACH_OPTIONS_INIT;
     options.solver = 7;
     EXPECT_EQ(message(bendy_reach(pose_.get(), 0, &numbers_[5], nullptr, &options, nullptr, &error_)),
-              "solver 7 is none of the known ones");
+              "solver 7 is not a bendy_solver");
     options = BENDY_REACH_OPTIONS_INIT;
     options.influence = kNan;
     message(bendy_reach(pose_.get(), 0, &numbers_[5], nullptr, &options, nullptr, &error_));
@@ -176,13 +176,13 @@ TEST_F(CArguments, WhatBelongsToAnotherModelIsAnError) {
     const ModelHandle other = open_copy(sample_file());
     const PoseHandle other_pose = new_pose(other);
     EXPECT_EQ(message(bendy_blend(pose_.get(), other_pose.get(), 1, nullptr, &error_)),
-              "other is a pose of another model");
+              "other is of another model than pose");
     bendy_vertices out = BENDY_VERTICES_INIT;
     out.capacity = 10;
     out.positions = numbers_.data();
     bendy_skin_options options = BENDY_SKIN_OPTIONS_INIT;
     options.lod = lod_.get();
-    EXPECT_EQ(message(bendy_skin(other_pose.get(), &options, &out, &error_)), "lod is of another model than the pose");
+    EXPECT_EQ(message(bendy_skin(other_pose.get(), &options, &out, &error_)), "lod is of another model than pose");
 }
 
 TEST_F(CArguments, StructsOfOtherVersionsAreTakenAsFarAsBothKnowThem) {

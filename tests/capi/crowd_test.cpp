@@ -81,7 +81,7 @@ TEST_F(CCrowd, BindingsRefuseBadArguments) {
     const PoseHandle pose = new_pose(posed);
     const PoseHandle wrong = new_pose(animated);
     EXPECT_EQ(message(bendy_sample_bound(wrong.get(), binding.get(), 0, 0.0f, &error_)),
-              "pose is a pose of another model than binding");
+              "binding is of another model than pose");
     message(bendy_sample_bound(pose.get(), binding.get(), 2, 0.0f, &error_));
     message(bendy_sample_bound(pose.get(), binding.get(), 0, NAN, &error_));
     message(bendy_sample_bound(pose.get(), nullptr, 0, 0.0f, &error_));
@@ -334,7 +334,7 @@ TEST_F(CCrowd, PreparedDualQuaternionsAllocateNothing) {
     restart_count();
     ASSERT_EQ(bendy_skin(pose.get(), &options, &out, &error_), BENDY_OK);
     EXPECT_EQ(allocations().count, 0u);
-    EXPECT_EQ(message(bendy_prepare_skin(pose.get(), 2, &error_)), "expected a method of bendy_skin_method, found 2");
+    EXPECT_EQ(message(bendy_prepare_skin(pose.get(), 2, &error_)), "method 2 is not a bendy_skin_method");
     message(bendy_prepare_skin(nullptr, 0, &error_));
 }
 

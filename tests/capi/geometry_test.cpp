@@ -180,7 +180,7 @@ TEST_F(CGeometry, DisplacementsAreTheTargets) {
     EXPECT_EQ(all, (Integers{0, 1, 2, 3}));
     message(bendy_get_displacements(model_.get(), 0, all.data(), nullptr, nullptr, nullptr, 3, &error_));
     EXPECT_EQ(message(bendy_get_displacements(model_.get(), 2, all.data(), nullptr, nullptr, nullptr, 4, &error_)),
-              "target 2 does not exist: the model has 2 targets");
+              "morph target 2 does not exist: the model has 2 morph targets");
 }
 
 TEST_F(CGeometry, MorphTargetsAreAppliedAsInCpp) {
@@ -250,7 +250,7 @@ TEST_F(CGeometry, BadArgumentsAreErrorsAndNothingIsWritten) {
     EXPECT_EQ(error_.status, BENDY_NOT_FOUND);
     EXPECT_STREQ(error_.message, "mesh 0 has no such stream of set 1");
     EXPECT_EQ(bendy_find_stream(model_.get(), 0, 9, 0, &error_), BENDY_NONE);
-    EXPECT_STREQ(error_.message, "kind of stream 9 is none of the known ones");
+    EXPECT_STREQ(error_.message, "kind 9 is not a bendy_stream_kind");
     Floats numbers(12, 7.0f);
     EXPECT_EQ(message(bendy_get_numbers(model_.get(), 0, 0, numbers.data(), 11, &error_)),
               "numbers has room for 11, 12 are needed");

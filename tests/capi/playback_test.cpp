@@ -90,7 +90,7 @@ TEST_F(CPlayback, BadArgumentsAreErrorsAndChangeNothing) {
     EXPECT_EQ(bendy_playback_new(nullptr, 0, &error_), nullptr);
     EXPECT_EQ(bendy_playback_new_range(0, INFINITY, 0, &error_), nullptr);
     EXPECT_EQ(bendy_playback_new_range(0, 1, 3, &error_), nullptr);
-    EXPECT_STREQ(error_.message, "loop mode 3 is none of the known ones");
+    EXPECT_STREQ(error_.message, "mode 3 is not a bendy_loop_mode");
     const PlaybackHandle playback(bendy_playback_new(model_.get(), 1, &error_));
     bendy_playback_seek(playback.get(), 0.5, nullptr);
     EXPECT_EQ(message(bendy_playback_advance(playback.get(), NAN, nullptr, &error_)),
@@ -147,7 +147,7 @@ TEST_F(CPlayback, MarkersPassedComeInPlaybackOrder) {
     EXPECT_EQ(written, 0u);
     played.first.to = NAN;
     EXPECT_EQ(message(bendy_count_markers(model_.get(), 0, &played, &count, &error_)),
-              "played holds a number that is not finite");
+              "to holds a number that is not finite");
     message(bendy_collect_markers(model_.get(), 0, nullptr, markers.data(), 2, &written, &error_));
     played.first.to = 0.0;
     message(bendy_collect_markers(model_.get(), 0, &played, nullptr, 2, &written, &error_));
@@ -225,7 +225,7 @@ TEST_F(CPlayback, FadesRunAsInCpp) {
     EXPECT_EQ(bendy_ease(BENDY_EASING_SMOOTH, 0.25f), 0.15625f);
     EXPECT_EQ(bendy_ease(BENDY_EASING_LINEAR, 0.25f), 0.25f);
     EXPECT_EQ(bendy_fade_new(NAN, &error_), nullptr);
-    EXPECT_EQ(message(bendy_fade_to(fade.get(), 0.0f, 1.0f, 2, &error_)), "easing 2 is none of the known ones");
+    EXPECT_EQ(message(bendy_fade_to(fade.get(), 0.0f, 1.0f, 2, &error_)), "easing 2 is not a bendy_easing");
     message(bendy_fade_to(fade.get(), NAN, 1.0f, 0, &error_));
     message(bendy_fade_advance(fade.get(), NAN, &error_));
     message(bendy_fade_advance(nullptr, 1.0, &error_));
@@ -312,7 +312,7 @@ TEST_F(CPlayback, CrossfadesRefuseBadArguments) {
     EXPECT_EQ(bendy_crossfade_count(fade.get()), 0u);
     ASSERT_EQ(bendy_crossfade_play(fade.get(), 0, nullptr, 0, 0, &error_), BENDY_OK);
     EXPECT_EQ(message(bendy_sample_crossfade(other_pose.get(), fade.get(), scratch.get(), &error_)),
-              "pose is a pose of another model than crossfade");
+              "crossfade is of another model than pose");
     EXPECT_EQ(message(bendy_sample_crossfade(pose.get(), fade.get(), pose.get(), &error_)),
               "scratch is the pose itself");
     message(bendy_sample_crossfade(pose.get(), fade.get(), nullptr, &error_));

@@ -268,7 +268,7 @@ TEST(CPose, DualQuaternionsAreAMethodOfSkinning) {
     EXPECT_NE(made, wanted) << "or the pose does not tell the methods apart";
     options.method = 2;
     EXPECT_EQ(bendy_skin(pose.get(), &options, &out, &error), BENDY_BAD_ARGUMENT);
-    EXPECT_STREQ(error.message, "expected a method of bendy_skin_method, found 2");
+    EXPECT_STREQ(error.message, "method 2 is not a bendy_skin_method");
 }
 
 TEST(CPose, BoneMatricesAreThePalette) {

@@ -76,7 +76,7 @@ TEST_F(CMotion, AxesAreChosen) {
     expect_motion(motion, {});
     axes.turn = 3;
     EXPECT_EQ(bendy_root_path_new(model_.get(), 0, &axes, &error_), nullptr);
-    EXPECT_STREQ(error_.message, "turn 3 is none of the known ones");
+    EXPECT_STREQ(error_.message, "turn 3 is not a bendy_root_turn");
 }
 
 TEST_F(CMotion, ArithmeticIsAsInCpp) {
@@ -105,7 +105,7 @@ TEST_F(CMotion, ArithmeticIsAsInCpp) {
               "rotation is not a unit quaternion (x, y, z, w)");
     expect_motion(out, compose(cpp_a, cpp_b));
     const bendy_root_motion far{{NAN, 0, 0}, {0, 0, 0, 1}};
-    EXPECT_EQ(message(bendy_root_motion_inverse(&far, &out, &error_)), "motion holds a number that is not finite");
+    EXPECT_EQ(message(bendy_root_motion_inverse(&far, &out, &error_)), "translation holds a number that is not finite");
     message(bendy_root_motion_blend(&a, nullptr, 0.5, &out, &error_));
     message(bendy_root_motion_blend(&a, &b, NAN, &out, &error_));
     message(bendy_root_motion_repeat(&a, 2, nullptr, &error_));
@@ -126,7 +126,7 @@ TEST_F(CMotion, BadArgumentsAreErrors) {
     const ModelHandle other = open_copy(walker_file());
     const PoseHandle other_pose = new_pose(other);
     EXPECT_EQ(message(bendy_root_path_extract(path_.get(), other_pose.get(), &motion, &error_)),
-              "pose is a pose of another model than path");
+              "pose is of another model than path");
     message(bendy_root_path_extract(path_.get(), nullptr, &motion, &error_));
     expect_motion(motion, {});
     bendy_root_path_free(nullptr);
@@ -200,7 +200,7 @@ TEST_F(CMotion, BoundsAreAsInCpp) {
     const ModelHandle other = open_copy(walker_file());
     const PoseHandle other_pose = new_pose(other);
     EXPECT_EQ(message(bendy_bounds_of_pose(bounds.get(), other_pose.get(), &box, &error_)),
-              "pose is a pose of another model than bounds");
+              "pose is of another model than bounds");
     message(bendy_bounds_of_pose(bounds.get(), nullptr, &box, &error_));
     message(bendy_bounds_of_pose(bounds.get(), pose.get(), nullptr, &error_));
     message(bendy_bounds_of_joint(bounds.get(), other_pose.get(), 0, &box, &error_));
