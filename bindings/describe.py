@@ -5,6 +5,7 @@ What the header says in a form that programs read, too:
   float position[3]         an array of so many numbers; finite, if the function reads them
   uint32_t mesh             the name of a part of a model, without more: an index of one (see PARTS)
   TYPE* name   with "/* or NULL */" behind it: it may be NULL, otherwise that is an error
+  float* positions          an array of `count` elements of the function, with "N each" in its comment: N numbers for each
   uint32_t field            with a comment that begins "a bendy_NAME": a value of that enumeration
   uint32_t field            with a comment that begins "0 or 1", "1:" or "0: ... 1: ...": a flag
   uint32_t has_X            beside X: whether X is given; other languages have an X that may be absent

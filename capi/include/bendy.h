@@ -398,7 +398,8 @@ BENDY_API bendy_status bendy_get_influences(const bendy_model* model, uint32_t m
  * to joint space at bind time. Either array may be NULL: not wanted. `count` is the capacity of each in bones, at least
  * bendy_mesh.bones. Fails for a rigid mesh. */
 BENDY_API bendy_status bendy_get_bind_palette(const bendy_model* model, uint32_t mesh, uint32_t* joints /* or NULL */,
-                                              float* inverse_bind /* or NULL */, size_t count, bendy_error* error);
+                                              float* inverse_bind /* or NULL, 16 each */, size_t count,
+                                              bendy_error* error);
 /* Copies, for each vertex of a rigid mesh, the joint that moves it, or BENDY_NONE. `count` is the capacity of `joints`,
  * at least bendy_mesh.vertices. Fails for a mesh that is not rigid. */
 BENDY_API bendy_status bendy_get_movers(const bendy_model* model, uint32_t mesh,
@@ -460,17 +461,16 @@ BENDY_API bendy_status bendy_get_integers(const bendy_model* model, uint32_t mes
  * the target has none. Each array may be NULL: not wanted. `count` is the capacity of each in vertices, at least
  * bendy_morph_target.vertices. */
 BENDY_API bendy_status bendy_get_displacements(const bendy_model* model, uint32_t morph_target,
-                                               uint32_t* vertices /* or NULL */, float* positions /* or NULL */,
-                                               float* normals /* or NULL */, float* tangents /* or NULL */,
-                                               size_t count, bendy_error* error);
+                                               uint32_t* vertices /* or NULL */, float* positions /* or NULL, 3 each */,
+                                               float* normals /* or NULL, 3 each */,
+                                               float* tangents /* or NULL, 3 each */, size_t count, bendy_error* error);
 /* Applies morph targets to a mesh without skinning it: its vertices plus the weighted displacements, in mesh space.
  * Normals and tangents are not normalised. `weights` has one number per target of the mesh; NULL: all 0. Each array may
  * be NULL: not wanted; positions and normals have 3 floats per vertex, tangents 4. `count` is the number of vertices to
  * write, the first ones, at most bendy_mesh.vertices. */
-BENDY_API bendy_status bendy_apply_morph_targets(const bendy_model* model, uint32_t mesh,
-                                                 const float* weights /* or NULL */, float* positions /* or NULL */,
-                                                 float* normals /* or NULL */, float* tangents /* or NULL */,
-                                                 size_t count, bendy_error* error);
+BENDY_API bendy_status bendy_apply_morph_targets(
+    const bendy_model* model, uint32_t mesh, const float* weights /* or NULL */, float* positions /* or NULL, 3 each */,
+    float* normals /* or NULL, 3 each */, float* tangents /* or NULL, 4 each */, size_t count, bendy_error* error);
 
 /* A range of a mesh's index list that belongs to one joint: for hit tests, severed limbs, culling. */
 typedef struct bendy_joint_submesh {
@@ -824,11 +824,11 @@ BENDY_API bendy_status bendy_reach_all(bendy_pose* pose, bendy_error* error);
  * or, if `world` is given (model space to world space, 16 floats), to world space. `world` may be NULL. */
 BENDY_API bendy_status bendy_joint_matrices(bendy_pose* pose, uint32_t first, uint32_t count,
                                             const float world[16] /* or NULL */,
-                                            float* matrices /* or NULL if `count` is 0 */, bendy_error* error);
+                                            float* matrices /* or NULL if `count` is 0, 16 each */, bendy_error* error);
 /* Computes the skinning palette of a mesh, for skinning elsewhere: for each bone, 16 floats, from mesh space to
  * model space. `count` is the capacity of `matrices` in matrices, at least bendy_mesh.bones. Fails for a rigid mesh:
  * use bendy_skin for its vertices. */
-BENDY_API bendy_status bendy_bone_matrices(bendy_pose* pose, uint32_t mesh, float* matrices, size_t count,
+BENDY_API bendy_status bendy_bone_matrices(bendy_pose* pose, uint32_t mesh, float* matrices /* 16 each */, size_t count,
                                            bendy_error* error);
 
 /* ---- Playback -------------------------------------------------------------------------------------------- */
@@ -1239,7 +1239,7 @@ BENDY_API bendy_status bendy_crowd_play(bendy_crowd* crowd, const bendy_crowd_me
  * pose is valid during the call and must not be freed. */
 typedef void (*bendy_pose_member)(void* user, size_t member, bendy_pose* pose);
 /* As bendy_crowd_play, but the caller sets each pose: blends clips, solves IK chains. The members' clips and times are
- * not used. */
+ * not used. Only for C: a call back per member into an interpreter takes longer than a pose of its own. */
 BENDY_API bendy_status bendy_crowd_play_posed(bendy_crowd* crowd, const bendy_crowd_member* members, size_t count,
                                               uint32_t worker, bendy_pose_member pose_member, void* user,
                                               bendy_error* error);
