@@ -34,10 +34,13 @@ class CMakeBuild(build_ext):
         if not module.exists():
             raise SystemExit(f"{module} is missing: the build folder is for another Python than {sys.executable}")
         shutil.copyfile(module, output)
+        if not self.inplace:  # the build folder has the whole package, with what is made from bendy.h
+            for file in module.parent.glob("*.py*"):
+                shutil.copyfile(file, output.parent / file.name)
 
     def configure(self, folder):
         arguments = ["-DCMAKE_BUILD_TYPE=Release", "-DBENDY_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}"]
-        arguments += [f"-DBENDY_{part}=OFF" for part in ("C", "TESTS", "BENCHMARKS", "EXAMPLES", "INSTALL")]
+        arguments += [f"-DBENDY_{part}=OFF" for part in ("TESTS", "BENCHMARKS", "EXAMPLES", "INSTALL")]
         try:
             import pybind11
             arguments.append(f"-DBENDY_PYBIND11_INCLUDE={pybind11.get_include()}")

@@ -13,7 +13,6 @@ seconds; Y is up; quaternions are x, y, z, w; matrices are [row, column].
 """
 
 import builtins as _builtins
-import collections.abc as _abc
 import contextlib as _contextlib
 import html as _html
 import json as _json
@@ -25,19 +24,21 @@ from pathlib import Path as _Path
 import numpy as _np
 
 from . import _bendy
-from ._bendy import (Binding, Chain, Clip, Constraint, Crossfade, Crowd, Curve, Items, Joint, Lod, Marker, Material, Mesh, MorphTarget,
-                     PlayedInterval, Playback, Playing, Pose, ReachResult, RootMotion, RootPath, Submesh, Texture, Track, __version__)
+from ._bendy import __version__
 from ._errors import ConversionError, EditError, Error, InvalidError, MalformedError, RenderError, UnsupportedError
+from ._items import Items
+from ._mesh import Lod, Material, Mesh, MorphTarget, Submesh, Texture
+from ._model import Chain, Clip, Constraint, Curve, Joint, Marker, Model, Track
+from ._play import Binding, Crossfade, Crowd, PlayedInterval, Playback, Playing, RootMotion, RootPath
+from ._pose import Pose, ReachRequest, ReachResult
 
 __all__ = [
     "Binding", "Chain", "Chunk", "Clip", "Constraint", "Conversion", "ConversionError", "Crossfade", "Crowd", "Curve", "Edit",
     "EditError", "Error", "Export", "Fault", "Faults", "File", "InvalidError", "Items", "Joint", "Lod", "MalformedError", "Marker",
-    "Material", "Mesh", "Model", "MorphTarget", "Playback", "PlayedInterval", "Playing", "Pose", "ReachResult", "RenderError",
-    "RootMotion", "RootPath", "Submesh", "Texture", "Track", "UnsupportedError", "assemble", "contact_sheet", "convert", "diff",
+    "Material", "Mesh", "Model", "MorphTarget", "Playback", "PlayedInterval", "Playing", "Pose", "ReachRequest", "ReachResult",
+    "RenderError", "RootMotion", "RootPath", "Submesh", "Texture", "Track", "UnsupportedError", "assemble", "contact_sheet", "convert", "diff",
     "dump", "edit", "encode_png", "export", "inspect", "open", "render", "save_png", "validate",
 ]
-
-_abc.Sequence.register(Items)
 
 
 class File:
@@ -70,54 +71,6 @@ class File:
     def inspect(self):
         """The file's chunks: see bendy.inspect."""
         return inspect(self)
-
-
-class Model(_bendy.Model):
-    """A character, as bendy.open returns it: a mapped file. Immutable; threads may share it.
-
-    Arrays of meshes and clips are views of the file: read-only, not copied, and valid as long as they are used, also after close().
-    As a context manager it closes itself.
-    """
-
-    conversion = None  # of a source that was converted in memory: the Conversion, with its warnings
-
-    def pose(self):
-        """A Pose at rest. Raises ValueError if the model is closed."""
-        return Pose(self)
-
-    def sample(self, clip, seconds):
-        """A Pose of a clip (its name, number or object) at a time. Raises KeyError, IndexError, ValueError."""
-        return Pose(self).sample(clip, seconds)
-
-    def skin_clip(self, clip, times):
-        """The vertices of a clip at many times, (T,) seconds: (T, N, 3) float32, metres, fresh. Raises KeyError, ValueError."""
-        return _bendy.skin_clip(self, clip, times)
-
-    def pose_clip(self, clip, times):
-        """The joint matrices of a clip at many times, (T,) seconds: (T, J, 4, 4) float32, fresh. Raises KeyError, ValueError."""
-        return _bendy.pose_clip(self, clip, times)
-
-    def summary(self):
-        """What the character consists of: the dict of `bendy inspect --json`, described in docs/inspect.md."""
-        return _bendy.summarize(self.source)
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.close()
-
-    def __repr__(self):
-        if self.closed:
-            return "<bendy.Model, closed>"
-        return (f"<bendy.Model {self.name!r}: {len(self.joints)} joints, {len(self.meshes)} meshes, {self.vertices} vertices, "
-                f"{len(self.clips)} clips>")
-
-    def _repr_html_(self):
-        if self.closed:
-            return _html.escape(repr(self))
-        file = self.source.file
-        return _summary_table(self.summary(), _Path(file).name if file else self.name, len(self.source.bytes))
 
 
 class Fault:
@@ -494,7 +447,11 @@ def render(subject, clip=None, times=None, *, size=(512, 512), yaw=None, pitch=N
     drawn = [name for name, wanted in (("bones", bones), ("axes", axes), ("constraints", constraints), ("wireframe", wireframe)) if wanted]
     width, height = size
     yaw, pitch = (None if angle is None else _math.radians(angle) for angle in (yaw, pitch))
-    pictures = _bendy.render(subject, clip, [float(time) for time in times], width, height, yaw, pitch, distance,
+    character = subject._character if isinstance(subject, Pose) else subject._get()
+    pose = subject._handle if isinstance(subject, Pose) else None
+    number = None if clip is None else character.find("clip", clip)
+    pictures = _bendy.render(character.handle, pose, character.source, number, [float(time) for time in times], width, height, yaw, pitch,
+                             distance,
                              None if background is None else tuple(background), drawn, root or "")
     return pictures[0] if is_one else pictures
 
@@ -547,7 +504,7 @@ def _source(source):
     """The bytes behind anything that the functions accept."""
     if isinstance(source, File):
         return source._source
-    if isinstance(source, _bendy.Model):
+    if isinstance(source, Model):
         return source.source
     if isinstance(source, _bendy.Source):
         return source
@@ -605,34 +562,3 @@ def _claim(outputs, overwrite, inputs):
                     raise ValueError(f"{output} is an input as well as an output: give another name")
         if not overwrite:
             raise FileExistsError(17, "the file exists; overwrite=True replaces it", str(output))
-
-
-def _summary_table(summary, name, size):
-    """The facts of `bendy inspect --html`, as a table for a notebook."""
-    def listed(things, text):
-        shown = [text(thing) for thing in things[:12]]
-        more = [] if len(things) <= 12 else [f"... {len(things) - 12:,} more"]
-        return f"{len(things):,}" + (": " + ", ".join(shown + more) if shown else "")
-
-    def named(thing):
-        return thing["name"] or f"#{thing['number']}"
-
-    if summary is None:
-        return _html.escape(f"{name}: {size:,} bytes, with faults")
-    rows = [("joints", f"{len(summary['joints']):,}")]
-    if summary["constraints"] or summary["chains"]:
-        rows.append(("rig", f"{summary['constraints']:,} constraints, chains " + listed(summary["chains"], named)))
-    rows.append(("meshes", listed(summary["meshes"], lambda m: f"{named(m)} ({m['vertices']:,} vertices, {m['triangles']:,} triangles)")))
-    targets = [target for mesh in summary["meshes"] for target in mesh["morphTargets"]]
-    if targets:
-        rows.append(("morph targets", listed(targets, str)))
-    rows.append(("clips", listed(summary["clips"], lambda clip: f"{named(clip)} {clip['seconds']:.4g} s")))
-    rows.append(("materials", listed(summary["materials"], named)))
-    rows.append(("textures", listed(summary["textures"], named)))
-    if summary["bounds"]:
-        low, high = summary["bounds"]["min"], summary["bounds"]["max"]
-        rows.append(("bounds", " x ".join(f"{b - a:.4g}" for a, b in zip(low, high)) + " m"))
-    rows.append(("bytes", ", ".join(f"{kind} {count:,}" for kind, count in summary["bytesByKind"].items())))
-    cells = "".join(f"<tr><th style='text-align:left'>{_html.escape(label)}</th><td style='text-align:left'>{_html.escape(text)}</td></tr>"
-                    for label, text in rows)
-    return f"<table><caption><b>{_html.escape(name)}</b>, {size:,} bytes</caption>{cells}</table>"

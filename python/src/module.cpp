@@ -1,8 +1,8 @@
 #include "bindings.h"
+#include "c_layer.h"
 
 #include <bendy/converter/source_format.h>
 #include <bendy/format/diagnostics.h>
-#include <bendy/runtime/kernels.h>
 
 #include <cmath>
 #include <cstring>
@@ -38,6 +38,26 @@ std::shared_ptr<const Source> copy_bytes(const py::buffer& buffer, const std::fi
     if (view.len > 0) bytes.assign(first, first + view.len);
     PyBuffer_Release(&view);
     return std::make_shared<const Source>(std::move(bytes), name);
+}
+
+/// Numbers as finite floats without gaps. \param shape  what the array must have; None: any number
+py::array floats(const py::object& numbers, const py::tuple& shape, const std::string& name) {
+    auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(numbers);
+    if (!array) {
+        PyErr_Clear();
+        throw py::type_error(name + " must be numbers");
+    }
+    bool fits = static_cast<std::size_t>(array.ndim()) == shape.size();
+    for (std::size_t k = 0; fits && k < shape.size(); ++k)
+        fits = shape[k].is_none() || shape[k].cast<py::ssize_t>() == array.shape(static_cast<py::ssize_t>(k));
+    if (!fits) {
+        const py::str wanted = py::str(py::repr(shape)).attr("replace")("None", "T");
+        throw py::value_error(name + " must have the shape " + wanted.cast<std::string>());
+    }
+    for (py::ssize_t k = 0; k < array.size(); ++k) {
+        if (!std::isfinite(array.data()[k])) throw py::value_error(name + " must be finite numbers");
+    }
+    return array;
 }
 
 void bind_source(py::module_& module) {
@@ -77,6 +97,10 @@ void bind_source(py::module_& module) {
             "is_converted", [](const Source& self) { return converter::is_converted(self.bytes(), self.file()); },
             "Whether the bytes are to be converted to a bendy file, or else to be opened as one.")
         .def(
+            "chunk_path",
+            [](const Source& self, std::uint64_t offset) { return text(whole_chunk_path(self.bytes(), offset)); },
+            py::arg("offset"), "The path of the chunk at an offset of the bytes.")
+        .def(
             "write",
             [](const Source& self, const std::filesystem::path& file) {
                 const auto written = [&] {
@@ -106,42 +130,6 @@ py::object parse_json(std::string_view json) {
     return py::module_::import("json").attr("loads")(text(json));
 }
 
-py::object number_or_none(std::uint32_t number) {
-    if (number == kNone) return py::none();
-    return py::int_(number);
-}
-
-std::uint32_t index_of(const py::handle& index, std::size_t count, const char* kind) {
-    const Py_ssize_t given = PyNumber_AsSsize_t(index.ptr(), PyExc_IndexError);
-    if (given == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
-    const auto last = static_cast<Py_ssize_t>(count);
-    const Py_ssize_t number = given < 0 ? given + last : given;
-    if (number < 0 || number >= last) {
-        throw py::index_error("there is no " + std::string(kind) + ' ' + std::to_string(given) + ": the model has " +
-                              std::to_string(count));
-    }
-    return static_cast<std::uint32_t>(number);
-}
-
-Floats floats_of(const py::handle& numbers, const char* name) {
-    Floats array = Floats::ensure(numbers);
-    if (!array) {
-        PyErr_Clear();
-        throw py::type_error(std::string(name) + " must be numbers");
-    }
-    for (py::ssize_t k = 0; k < array.size(); ++k) {
-        if (!std::isfinite(array.data()[k])) throw py::value_error(std::string(name) + " must be finite numbers");
-    }
-    return array;
-}
-
-std::vector<float> numbers_of(const py::handle& numbers, std::size_t count, const char* name) {
-    const Floats array = floats_of(numbers, name);
-    if (static_cast<std::size_t>(array.size()) != count || array.ndim() > 1)
-        throw py::value_error(std::string(name) + " must have the shape (" + std::to_string(count) + ",)");
-    return {array.data(), array.data() + array.size()};
-}
-
 void raise_os_error(const Error& error, const std::filesystem::path& file) {
     const auto number = static_cast<int>(error.value);
     // OSError makes an object of the subclass that belongs to the number.
@@ -167,23 +155,19 @@ void raise(const char* name, const std::string& message, const char* code, const
                                    py::arg("file") = name_of_file(file)));
 }
 
-void raise_call(CallError error) {
-    const std::string message = error_text(error);
-    if (error == CallError::not_available) throw std::runtime_error(message);
-    if (error == CallError::out_of_range) throw py::index_error(message);
-    throw py::value_error(message);
-}
-
 }  // namespace bendy::python
 
 PYBIND11_MODULE(_bendy, module) {
     namespace python = bendy::python;
+    namespace py = pybind11;
     module.doc() = "Bindings of the C++ library; import bendy instead.";
     module.attr("__version__") = BENDY_VERSION;
     python::bind_source(module);
-    python::bind_model(module);
-    python::bind_pose(module);
-    python::bind_play(module);
+    py::module_ c = module.def_submodule("c", "The C API, bendy.h.");
+    python::c::bind_made(c);
+    module.def("floats", &python::floats, py::arg("numbers"), py::arg("shape"), py::arg("name"),
+               "Finite float32 numbers of this shape, without gaps. Raises TypeError, ValueError.");
+    python::bind_stored(module);
     python::bind_tools(module);
     python::bind_render(module);
 }

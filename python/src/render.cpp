@@ -1,8 +1,11 @@
 #include "bindings.h"
+#include "c_layer.h"
 
 // Pictures, if the viewer is built.
 
 #ifdef BENDY_HAS_VIEWER
+
+#include "handles.h"
 
 #include <bendy/viewer/picture.h>
 #include <bendy/viewer/render.h>
@@ -22,18 +25,20 @@ namespace {
 
 constexpr py::ssize_t kChannels = 4;
 
-py::array render_model(const py::object& subject, const py::object& clip, const std::vector<float>& times,
-                       std::uint32_t width, std::uint32_t height, std::optional<float> yaw, std::optional<float> pitch,
-                       float distance, const std::optional<std::array<float, 4>>& background,
-                       const std::vector<std::string>& drawn, const std::filesystem::path& root) {
-    const std::optional<GivenPose> given = pose_of(subject);
-    const SharedCharacter character = given ? given->character : character_of(subject);
+py::array render_model(const py::object& model, const py::object& pose, const std::shared_ptr<Source>& source,
+                       const std::optional<std::uint32_t>& clip, const std::vector<float>& times, std::uint32_t width,
+                       std::uint32_t height, std::optional<float> yaw, std::optional<float> pitch, float distance,
+                       const std::optional<std::array<float, 4>>& background, const std::vector<std::string>& drawn,
+                       const std::filesystem::path& root) {
+    const c::Using<bendy_model> used(model, "model", c::Null::refused, false);
+    const Model& character = used.get()->get();
+    const c::Using<bendy_pose> given(pose, "pose", c::Null::allowed, false);
     viewer::RenderOptions options;
     options.width = width;
     options.height = height;
     if (width < 1 || height < 1 || width > viewer::kMostPixels || height > viewer::kMostPixels)
         throw py::value_error("size must be 1 to " + std::to_string(viewer::kMostPixels) + " pixels each way");
-    if (!clip.is_none()) options.clip = &find_clip(character, clip);
+    if (clip) options.clip = &character.clips()[*clip];
     if (yaw) options.camera.yaw = *yaw;
     if (pitch) options.camera.pitch = *pitch;
     options.camera.distance = distance;
@@ -54,8 +59,9 @@ py::array render_model(const py::object& subject, const py::object& clip, const 
         if (what == "constraints") options.draw.constraints = options.draw.targets = true;
         if (what == "wireframe") options.draw.wireframe = true;
     }
-    options.folders = folders_of(*character->source, root);
-    if (given) options.adjust = [&](Pose& pose) { pose = given->pose; };
+    options.folders = folders_of(*source, root);
+    const bendy_pose* const posed = given.get();
+    if (posed != nullptr) options.adjust = [&](Pose& taken) { taken = posed->pose; };
 
     const auto pictures = static_cast<py::ssize_t>(times.size());
     py::array_t<std::uint8_t> array(
@@ -68,8 +74,7 @@ py::array render_model(const py::object& subject, const py::object& clip, const 
         static std::mutex drawing;  // OpenGL drivers are not all safe to use from several threads
         const std::scoped_lock lock(drawing);
         try {
-            viewer::PictureMaker maker(character->model, options,
-                                       [&](const std::string& what) { warnings.push_back(what); });
+            viewer::PictureMaker maker(character, options, [&](const std::string& what) { warnings.push_back(what); });
             for (const float time : times) {
                 const viewer::Picture picture = maker.draw(time);
                 std::memcpy(out, picture.pixels.data(), picture.pixels.size());
@@ -79,7 +84,7 @@ py::array render_model(const py::object& subject, const py::object& clip, const 
             problem = error.what();
         }
     }
-    if (!problem.empty()) raise("RenderError", problem, "RENDER", character->source->file());
+    if (!problem.empty()) raise("RenderError", problem, "RENDER", source->file());
     for (const std::string& what : warnings) {
         if (PyErr_WarnEx(PyExc_UserWarning, what.c_str(), 2) != 0) throw py::error_already_set();
     }
@@ -105,9 +110,9 @@ py::bytes encode_picture(const py::array_t<std::uint8_t, py::array::c_style | py
 
 void bind_render(py::module_& module) {
     module.attr("has_viewer") = true;
-    module.def("render", &render_model, py::arg("subject"), py::arg("clip"), py::arg("times"), py::arg("width"),
-               py::arg("height"), py::arg("yaw"), py::arg("pitch"), py::arg("distance"), py::arg("background"),
-               py::arg("drawn"), py::arg("root"), "See bendy.render.");
+    module.def("render", &render_model, py::arg("model"), py::arg("pose"), py::arg("source"), py::arg("clip"),
+               py::arg("times"), py::arg("width"), py::arg("height"), py::arg("yaw"), py::arg("pitch"),
+               py::arg("distance"), py::arg("background"), py::arg("drawn"), py::arg("root"), "See bendy.render.");
     module.def("encode_png", &encode_picture, py::arg("picture"), "See bendy.encode_png.");
 }
 

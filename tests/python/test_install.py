@@ -24,11 +24,12 @@ def test_pip_installs_it(tmp_path):
                     "--no-cache-dir", "--disable-pip-version-check", ROOT], check=True, env=environment)
     script = ("import bendy, pathlib; folder = pathlib.Path(bendy.__file__).parent; print(folder); "
               f"print(bendy.open({str(ROOT / 'examples/tentacle.glb')!r}).pose().skin().shape[1]); "
+              f"print(bendy.open({str(ROOT / 'examples/mannequin.glb')!r}).pose().reach('IK_LeftArm', (0, 1, 0), solver='ccd').status); "
               "print(*sorted(path.suffix for path in folder.iterdir() if path.is_file()))")
     printed = subprocess.run([python, "-c", script], check=True, env=environment, cwd=tmp_path, capture_output=True, text=True)
-    folder, columns, suffixes = printed.stdout.splitlines()
-    assert folder.startswith(str(tmp_path / "venv")) and columns == "3"
-    assert suffixes.split() == [".py", ".py", ".pyi", ".so", ".typed"]
+    folder, columns, status, suffixes = printed.stdout.splitlines()
+    assert folder.startswith(str(tmp_path / "venv")) and columns == "3" and status
+    assert suffixes.split() == [*[".py"] * 7, ".pyi", ".pyi", ".so", ".typed"]
     module = next((tmp_path / "venv").rglob("_bendy*.so"))
     assert os.environ["BENDY_BUILD_DIR"].encode() not in module.read_bytes()
 

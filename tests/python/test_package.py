@@ -23,7 +23,7 @@ def public(names):
 def test_stubs_have_what_the_module_has():
     stub = ast.parse((ROOT / "python/bendy/_bendy.pyi").read_text())
     declared = {node.name: node for node in stub.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
-    assert public(declared) - OPTIONAL == public(vars(bendy._bendy)) - OPTIONAL - {"has_viewer"}
+    assert public(declared) - OPTIONAL == public(vars(bendy._bendy)) - OPTIONAL - {"has_viewer", "c"}  # that has a stub of its own
     for name, node in declared.items():
         if not isinstance(node, ast.ClassDef):
             continue
