@@ -61,7 +61,8 @@ extern "C" {
 #define BENDY_VERSION_MINOR 1
 #define BENDY_VERSION_PATCH 0
 
-/* Returns the version of the library in use, which may be newer than this header: major << 16 | minor << 8 | patch. */
+/* Returns the version of the library in use, which may be newer than this header: major << 16 | minor << 8 | patch. Not
+ * in JavaScript: it has the text. */
 BENDY_API uint32_t bendy_version(void);
 /* Returns the same version as text: "0.1.0". */
 BENDY_API const char* bendy_version_string(void);
@@ -114,10 +115,11 @@ typedef struct bendy_open_options {
 
 /* Maps a file into memory and checks it. Returns NULL, and the first fault, if the file is not valid. Unless `copied`
  * is set, the file must not be modified in place while it is open (replacing it is allowed, except on Windows, where it
- * fails). `path` is UTF-8 on Windows, and in the system's encoding elsewhere. `options` may be NULL. */
+ * fails). `path` is UTF-8 on Windows, and in the system's encoding elsewhere. `options` may be NULL. Not in
+ * JavaScript: it has bytes, not files. */
 BENDY_API bendy_model* bendy_open(const char* path, const bendy_open_options* options /* or NULL */,
                                   bendy_error* error);
-/* As bendy_open, for `size` bytes in memory, which are copied. */
+/* As bendy_open, for `size` bytes in memory, which are copied. Not in JavaScript: it lends its own copy. */
 BENDY_API bendy_model* bendy_open_copy(const void* bytes /* or NULL if `size` is 0 */, size_t size,
                                        const bendy_open_options* options /* or NULL */, bendy_error* error);
 /* As bendy_open_copy, without the copy: the bytes must start on a 16-byte boundary (BENDY_BAD_ARGUMENT if not), and
@@ -148,7 +150,8 @@ BENDY_API uint32_t bendy_texture_count(const bendy_model* model);
 /* Returns the number of vertices of all meshes together. */
 BENDY_API uint64_t bendy_vertex_count(const bendy_model* model);
 
-/* Return the index of the first one with that name, or BENDY_NONE and an error that lists the names that exist. */
+/* Return the index of the first one with that name, or BENDY_NONE and an error that lists the names that exist. Not in
+ * JavaScript: its lists find by name. */
 BENDY_API uint32_t bendy_find_joint(const bendy_model* model, const char* name, bendy_error* error);
 BENDY_API uint32_t bendy_find_clip(const bendy_model* model, const char* name, bendy_error* error);
 BENDY_API uint32_t bendy_find_chain(const bendy_model* model, const char* name, bendy_error* error);
@@ -354,8 +357,9 @@ typedef struct bendy_image { /* one encoding of a texture's image: embedded byte
     const void* bytes; /* the encoded image; NULL for a link. Owned by the model */
     size_t byte_count; /* 0 for a link */
     const char* uri;   /* of a link, relative to the file; NULL for embedded bytes */
-    uint32_t texture;  /* where the bytes or the link are stored. Textures may share an image: a program that loads */
-    uint32_t image;    /* each (texture, image) once loads none twice */
+    uint32_t texture;  /* texture and image where the bytes or the link are stored. Textures may share an image: a
+                          program that loads each such pair once loads none twice */
+    uint32_t image;    /* number of that image in `texture` */
 } bendy_image;
 
 BENDY_API const char* bendy_model_name(const bendy_model* model); /* "" if it has no name; NULL for NULL */
@@ -398,7 +402,7 @@ BENDY_API bendy_status bendy_get_influences(const bendy_model* model, uint32_t m
  * to joint space at bind time. Either array may be NULL: not wanted. `count` is the capacity of each in bones, at least
  * bendy_mesh.bones. Fails for a rigid mesh. */
 BENDY_API bendy_status bendy_get_bind_palette(const bendy_model* model, uint32_t mesh, uint32_t* joints /* or NULL */,
-                                              float* inverse_bind /* or NULL, 16 each */, size_t count,
+                                              float* inverse_bind /* or NULL; 16 each */, size_t count,
                                               bendy_error* error);
 /* Copies, for each vertex of a rigid mesh, the joint that moves it, or BENDY_NONE. `count` is the capacity of `joints`,
  * at least bendy_mesh.vertices. Fails for a mesh that is not rigid. */
@@ -444,9 +448,11 @@ typedef struct bendy_stream {
 
 /* Returns the number of streams of a mesh; 0 for NULL or a mesh that does not exist. */
 BENDY_API uint32_t bendy_stream_count(const bendy_model* model, uint32_t mesh);
-/* Returns the index of the mesh's stream of that kind (a bendy_stream_kind) and set; BENDY_NONE if there is none. */
+/* Returns the index of the mesh's stream of that kind (a bendy_stream_kind) and set; BENDY_NONE if there is none. Not
+ * in JavaScript: it has the list. */
 BENDY_API uint32_t bendy_find_stream(const bendy_model* model, uint32_t mesh, uint32_t kind /* a bendy_stream_kind */,
                                      uint32_t set, bendy_error* error);
+
 BENDY_API bendy_status bendy_get_stream(const bendy_model* model, uint32_t mesh, uint32_t stream, bendy_stream* out,
                                         bendy_error* error);
 /* Copies the numbers of a stream, decoded. `count` is the capacity of `numbers`, at least elements * components. */
@@ -461,16 +467,16 @@ BENDY_API bendy_status bendy_get_integers(const bendy_model* model, uint32_t mes
  * the target has none. Each array may be NULL: not wanted. `count` is the capacity of each in vertices, at least
  * bendy_morph_target.vertices. */
 BENDY_API bendy_status bendy_get_displacements(const bendy_model* model, uint32_t morph_target,
-                                               uint32_t* vertices /* or NULL */, float* positions /* or NULL, 3 each */,
-                                               float* normals /* or NULL, 3 each */,
-                                               float* tangents /* or NULL, 3 each */, size_t count, bendy_error* error);
+                                               uint32_t* vertices /* or NULL */, float* positions /* or NULL; 3 each */,
+                                               float* normals /* or NULL; 3 each */,
+                                               float* tangents /* or NULL; 3 each */, size_t count, bendy_error* error);
 /* Applies morph targets to a mesh without skinning it: its vertices plus the weighted displacements, in mesh space.
  * Normals and tangents are not normalised. `weights` has one number per target of the mesh; NULL: all 0. Each array may
  * be NULL: not wanted; positions and normals have 3 floats per vertex, tangents 4. `count` is the number of vertices to
- * write, the first ones, at most bendy_mesh.vertices. */
+ * write, the first ones, at most bendy_mesh.vertices. Not in JavaScript: its module stays smaller. */
 BENDY_API bendy_status bendy_apply_morph_targets(
-    const bendy_model* model, uint32_t mesh, const float* weights /* or NULL */, float* positions /* or NULL, 3 each */,
-    float* normals /* or NULL, 3 each */, float* tangents /* or NULL, 4 each */, size_t count, bendy_error* error);
+    const bendy_model* model, uint32_t mesh, const float* weights /* or NULL */, float* positions /* or NULL; 3 each */,
+    float* normals /* or NULL; 3 each */, float* tangents /* or NULL; 4 each */, size_t count, bendy_error* error);
 
 /* A range of a mesh's index list that belongs to one joint: for hit tests, severed limbs, culling. */
 typedef struct bendy_joint_submesh {
@@ -553,7 +559,8 @@ BENDY_API bendy_status bendy_from_constraint_space(const bendy_model* model, uin
 BENDY_API bendy_status bendy_clamp_rotation(const bendy_model* model, uint32_t constraint, const double R[4],
                                             double clamped[4] /* or NULL */, double* violation /* or NULL */,
                                             bendy_error* error);
-/* Clamps a local translation of the constraint's joint (3 floats, metres). `clamped` may be `translation` itself. */
+/* Clamps a local translation of the constraint's joint (3 floats, metres). `clamped` may be `translation` itself. Not
+ * in JavaScript: its module stays smaller. */
 BENDY_API bendy_status bendy_clamp_translation(const bendy_model* model, uint32_t constraint,
                                                const float translation[3], float clamped[3], bendy_error* error);
 
@@ -598,7 +605,7 @@ BENDY_API uint32_t bendy_track_count(const bendy_model* model, uint32_t clip);
 BENDY_API bendy_status bendy_get_track(const bendy_model* model, uint32_t clip, uint32_t track, bendy_track* out,
                                        bendy_error* error);
 /* Evaluates a single track at `seconds` on its clip's time line. `count` is the capacity of `values`, at least
- * bendy_track.components. NaN is an error. */
+ * bendy_track.components. NaN is an error. Not in JavaScript: its module stays smaller. */
 BENDY_API bendy_status bendy_sample_track(const bendy_model* model, uint32_t clip, uint32_t track,
                                           float seconds /* not NaN */, float* values, size_t count, bendy_error* error);
 
@@ -642,11 +649,13 @@ typedef struct bendy_frame_mix {
     float fraction; /* 0 to below 1: weight of `right`; `left` has the rest */
 } bendy_frame_mix;
 
-/* Returns the number of frame sequences of a clip; 0 for NULL or a clip that does not exist. */
+/* Returns the number of frame sequences of a clip; 0 for NULL or a clip that does not exist. Not in JavaScript: its
+ * module stays smaller. */
 BENDY_API uint32_t bendy_frame_sequence_count(const bendy_model* model, uint32_t clip);
 BENDY_API bendy_status bendy_get_frame_sequence(const bendy_model* model, uint32_t clip, uint32_t frame_sequence,
                                                 bendy_frame_sequence* out, bendy_error* error);
-/* Finds the frames around `seconds` on the clip's time line, clamped to the first and last frame. NaN is an error. */
+/* Finds the frames around `seconds` on the clip's time line, clamped to the first and last frame. NaN is an error. Not
+ * in JavaScript: its module stays smaller. */
 BENDY_API bendy_status bendy_mix_frames(const bendy_model* model, uint32_t clip, uint32_t frame_sequence,
                                         float seconds /* not NaN */, bendy_frame_mix* out, bendy_error* error);
 
@@ -679,14 +688,15 @@ typedef struct bendy_curve {
 /* Returns the number of curves of a clip; 0 for NULL or a clip that does not exist. */
 BENDY_API uint32_t bendy_curve_count(const bendy_model* model, uint32_t clip);
 /* Returns the clip's first curve with that name or, if none has that name, the first with that path; BENDY_NONE if
- * there is neither. */
+ * there is neither. Not in JavaScript: its list finds by name, and `find` by path. */
 BENDY_API uint32_t bendy_find_curve(const bendy_model* model, uint32_t clip, const char* name_or_path,
                                     bendy_error* error);
 /* Returns the clip's curve of a property of one joint, material, mesh or texture: `target_kind` is a
- * bendy_curve_target; BENDY_NONE if there is none. */
+ * bendy_curve_target; BENDY_NONE if there is none. Not in JavaScript: its list has `find`. */
 BENDY_API uint32_t bendy_find_curve_of(const bendy_model* model, uint32_t clip,
                                        uint32_t target_kind /* a bendy_curve_target */, uint32_t target_index,
                                        const char* path, bendy_error* error);
+
 BENDY_API bendy_status bendy_get_curve(const bendy_model* model, uint32_t clip, uint32_t curve, bendy_curve* out,
                                        bendy_error* error);
 /* Copies the values of a curve's keys: `components` numbers per key; if it is cubic, the in-tangent, value and
@@ -748,7 +758,7 @@ BENDY_API bendy_status bendy_set_weights(bendy_pose* pose, uint32_t first, uint3
                                          const float* weights /* or NULL if `count` is 0 */, bendy_error* error);
 
 /* Computes the matrix of a local transform, 16 floats: translation * rotation * scale with the joint's shear
- * (bendy_joint.shear; NULL: none). */
+ * (bendy_joint.shear; NULL: none). Not in JavaScript: libraries that draw make matrices of such parts. */
 BENDY_API bendy_status bendy_transform_matrix(const bendy_transform* transform, const float shear[3] /* or NULL */,
                                               float matrix[16], bendy_error* error);
 
@@ -824,7 +834,7 @@ BENDY_API bendy_status bendy_reach_all(bendy_pose* pose, bendy_error* error);
  * or, if `world` is given (model space to world space, 16 floats), to world space. `world` may be NULL. */
 BENDY_API bendy_status bendy_joint_matrices(bendy_pose* pose, uint32_t first, uint32_t count,
                                             const float world[16] /* or NULL */,
-                                            float* matrices /* or NULL if `count` is 0, 16 each */, bendy_error* error);
+                                            float* matrices /* or NULL if `count` is 0; 16 each */, bendy_error* error);
 /* Computes the skinning palette of a mesh, for skinning elsewhere: for each bone, 16 floats, from mesh space to
  * model space. `count` is the capacity of `matrices` in matrices, at least bendy_mesh.bones. Fails for a rigid mesh:
  * use bendy_skin for its vertices. */
@@ -878,9 +888,10 @@ typedef struct bendy_playback_info {
 /* Creates a clock at the start of a clip, which repeats if the clip loops. */
 BENDY_API bendy_playback* bendy_playback_new(const bendy_model* model, uint32_t clip, bendy_error* error);
 /* Creates a clock for a range of a time line in seconds, with a bendy_loop_mode. If `end` is not after `start`, it
- * stands still. */
+ * stands still. Not in JavaScript: its module stays smaller. */
 BENDY_API bendy_playback* bendy_playback_new_range(float start, float end, uint32_t mode /* a bendy_loop_mode */,
                                                    bendy_error* error);
+
 BENDY_API void bendy_playback_free(bendy_playback* playback); /* does nothing for NULL */
 BENDY_API bendy_status bendy_get_playback(const bendy_playback* playback, bendy_playback_info* out, bendy_error* error);
 /* Advances by `seconds` times the speed, backwards if that is negative. `played` receives the interval played; may be
@@ -896,7 +907,7 @@ BENDY_API bendy_status bendy_playback_set_mode(bendy_playback* playback, uint32_
 BENDY_API bendy_status bendy_playback_seek(bendy_playback* playback, double seconds, bendy_error* error);
 BENDY_API bendy_status bendy_playback_seek_share(bendy_playback* playback, double share, bendy_error* error);
 
-/* Counts the markers of a clip that an interval passes, each once per pass. */
+/* Counts the markers of a clip that an interval passes, each once per pass. Not in JavaScript: it has the list. */
 BENDY_API bendy_status bendy_count_markers(const bendy_model* model, uint32_t clip, const bendy_played* played,
                                            uint64_t* count, bendy_error* error);
 /* Copies the indices of the markers that an interval passes, in playback order: the first `capacity` of them. `*count`
@@ -912,7 +923,7 @@ typedef enum bendy_easing {
 
 /* Returns the eased weight at a fraction of the way, 0 to 1 (clamped; NaN counts as 1). An easing that does not exist
  * counts as linear. */
-BENDY_API float bendy_ease(uint32_t easing, float share);
+BENDY_API float bendy_ease(uint32_t easing /* a bendy_easing */, float share);
 
 /* A weight that moves towards another over time: of a layer, of an additive pose. */
 typedef struct bendy_fade bendy_fade;
@@ -989,12 +1000,13 @@ BENDY_API bendy_status bendy_root_motion_matrix(const bendy_root_motion* motion,
  * &character). `out` may be an input, here and below. */
 BENDY_API bendy_status bendy_root_motion_compose(const bendy_root_motion* before, const bendy_root_motion* motion,
                                                  bendy_root_motion* out, bendy_error* error);
+/* Computes the motion that undoes another one. Not in JavaScript: its module stays smaller. */
 BENDY_API bendy_status bendy_root_motion_inverse(const bendy_root_motion* motion, bendy_root_motion* out,
                                                  bendy_error* error);
 /* Interpolates between two motions, weight 0 to 1, along the shorter arc: for crossfades. */
 BENDY_API bendy_status bendy_root_motion_blend(const bendy_root_motion* motion, const bendy_root_motion* other,
                                                double weight, bendy_root_motion* out, bendy_error* error);
-/* Applies `motion` `times` times. */
+/* Applies `motion` `times` times. Not in JavaScript: its module stays smaller. */
 BENDY_API bendy_status bendy_root_motion_repeat(const bendy_root_motion* motion, uint64_t times, bendy_root_motion* out,
                                                 bendy_error* error);
 
@@ -1007,9 +1019,9 @@ typedef enum bendy_root_turn {
 /* Which parts of the root's movement move the character. The rest stays in the pose. */
 typedef struct bendy_root_axes {
     uint32_t size;
-    uint32_t x; /* 0 or 1: translation along the model's x axis */
-    uint32_t y;
-    uint32_t z;
+    uint32_t x;    /* 0 or 1: translation along the model's x axis */
+    uint32_t y;    /* 0 or 1: along its y axis, which is up */
+    uint32_t z;    /* 0 or 1: along its z axis */
     uint32_t turn; /* a bendy_root_turn */
 } bendy_root_axes;
 
@@ -1225,7 +1237,7 @@ typedef struct bendy_crowd_member { /* one character of a crowd; members must no
 /* Creates a crowd for at most `workers` threads at a time, 1 to 4096; 0 counts as 1. */
 BENDY_API bendy_crowd* bendy_crowd_new(const bendy_model* model, uint32_t workers, bendy_error* error);
 BENDY_API void bendy_crowd_free(bendy_crowd* crowd);              /* does nothing for NULL */
-BENDY_API uint32_t bendy_crowd_workers(const bendy_crowd* crowd); /* 0 for NULL */
+BENDY_API uint32_t bendy_crowd_workers(const bendy_crowd* crowd); /* 0 for NULL. Not in JavaScript: one */
 /* Return the number of matrices of all meshes together, and the index of a mesh's first one. A skinned mesh has
  * bendy_mesh.bones, as bendy_bone_matrices computes them; neighbouring meshes with the same ones share them. A rigid
  * mesh has one, of the joint that moves its first vertex. 0 for NULL, and for a mesh that does not exist. */
@@ -1251,10 +1263,10 @@ BENDY_API bendy_status bendy_crowd_play_posed(bendy_crowd* crowd, const bendy_cr
  * another. "plain" computes the same bits on every machine. */
 BENDY_API const char* bendy_kernel(void);
 /* Returns the number of kernels that this machine can run, and the name of one, the fastest first; NULL for a number
- * that is too large. */
+ * that is too large. Not in JavaScript: loadRuntime chooses the module, and so the kernel. */
 BENDY_API uint32_t bendy_kernel_count(void);
 BENDY_API const char* bendy_kernel_name(uint32_t number);
-/* Selects a kernel, with immediate effect in every thread. */
+/* Selects a kernel, with immediate effect in every thread. Not in JavaScript: see bendy_kernel_count. */
 BENDY_API bendy_status bendy_set_kernel(const char* name, bendy_error* error);
 
 #ifdef __cplusplus
