@@ -11,6 +11,10 @@ What the header says in a form that programs read, too:
   uint32_t has_X            beside X: whether X is given; other languages have an X that may be absent
   uint32_t field            with "elsewhere: not NAME" in its comment: other languages have the flag NAME instead, the other way round
   float field               with a comment that begins "0 to 1": nothing below or above
+  uint32_t field            with BENDY_NONE in its comment: an index that may be none
+  uint32_t field            with a comment that begins "a sum of bendy_NAME": bits, each of which is a flag elsewhere
+  struct field              whose first field has a comment that begins "or BENDY_NONE: not used": may be absent elsewhere
+  const char* extras, more, extensions    JSON, which other languages parse
 """
 
 import re
@@ -57,6 +61,20 @@ class Field:
         return self.type.name in ("float", "double") and self.doc.startswith("0 to 1")
 
     @property
+    def sum_of(self):
+        """The enumeration of bits whose sum the number is, or None."""
+        found = re.match(r"a sum of (bendy_\w+)", self.doc)
+        return found and found[1]
+
+    @property
+    def may_be_none(self):
+        return self.type.name == "uint32_t" and "BENDY_NONE" in self.doc
+
+    @property
+    def is_json(self):
+        return self.type.name == "char" and self.name in ("extras", "more", "extensions")
+
+    @property
     def may_be_null(self):
         return self.doc.startswith("or NULL")
 
@@ -71,6 +89,11 @@ class Struct:
     @property
     def has_size(self):
         return self.fields[0].name == "size"
+
+    @property
+    def presence(self):
+        """The index that is BENDY_NONE where another struct has one that is not used, or None."""
+        return self.fields[0] if self.fields[0].doc.startswith("or BENDY_NONE: not used") else None
 
 
 @dataclass
@@ -101,6 +124,10 @@ class Function:
     @property
     def can_fail(self):
         return bool(self.parameters) and self.parameters[-1].type.name == "bendy_error"
+
+    @property
+    def is_json(self):
+        return self.result is not None and self.result.name == "char" and self.name.endswith("_extras")
 
 
 @dataclass
@@ -153,7 +180,7 @@ def read(path):
 
     doc, group = "", False  # of what follows; whether it goes on for several functions
     token = re.compile(r"(/\*.*?\*/)|typedef enum \w+ \{(.*?)\} (\w+);|typedef struct \w+ \{(.*?)\} (\w+);|typedef struct \w+ (\w+);"
-                       r"|typedef void \(\*(\w+)\)\((.*?)\);|BENDY_API ([\w ]+?\*?) ?(\w+)\(([^;]*?)\);([ \t]*/\*[^\n]*?\*/)?|(\n[ \t]*\n)", re.DOTALL)
+                       r"|typedef void \(\*(\w+)\)\((.*?)\);|BENDY_API ([\w ]+?\*?) ?(\w+)\(((?:[^;/]|/\*.*?\*/)*?)\);([ \t]*/\*[^\n]*?\*/)?|(\n[ \t]*\n)", re.DOTALL)
     for found in token.finditer(text):
         comment, values, enum, fields, struct, handle, callback, passed, result, function, parameters, behind, blank = found.groups()
         if comment:
@@ -178,6 +205,7 @@ def read(path):
             listed = [declaration(piece) for piece in pieces]
             kind = None if result == "void" else declaration(result + " result").type
             api.functions[function] = Function(function, kind, listed, " ".join(filter(None, [doc, words_of(behind or "")])))
+    assert len(api.functions) == len(re.findall(r"^BENDY_API ", text, re.MULTILINE)), "a function that is not read"
     for struct in api.structs.values():
         if struct.defaults is not None:
             struct.defaults = defaults_of(struct, api, struct.defaults)

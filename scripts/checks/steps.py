@@ -95,7 +95,7 @@ STEPS = (
     Step("pictures", "all", "the viewer, and pictures beside three.js's", tests=(Tests("release", ("pictures",)),), needs=("everything",)),
     Step("blender", "all", "the add-on in Blender", tests=(Tests("release", ("blender",)),), needs=("everything",), uses=("blender",)),
     Step("npm", "all", "the npm package: WebAssembly with and without SIMD, the tools, the page in Chromium", (["scripts/web.sh"],),
-         needs=("build",), uses=("web", "bendy_c", "bendy_reports", "scripts/web.sh", "scripts/cross_dependencies.sh", "cmake")),
+         needs=("build",), uses=("web", "bindings", "bendy_c", "bendy_reports", "scripts/web.sh", "scripts/cross_dependencies.sh", "cmake")),
     Step("damage", "all", "every place of the damage tests under AddressSanitizer, and what takes long there",
          (configure("asan-ubsan", "-DBENDY_TESTS_NEEDED=all"), build("asan-ubsan")),
          (Tests("asan-ubsan", ("format", "runtime", "mutation", "exhaustive", "examples")),), environment={"BENDY_PLACES": "0/1"},

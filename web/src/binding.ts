@@ -1,11 +1,12 @@
-import { bindingOptionsLayout } from './generated/bindings.js';
+import type { BendyBindingOptions } from './generated/bindings.js';
 import type { Key } from './items.js';
+import type { MorphTarget } from './mesh.js';
 import type { Model } from './model.js';
 import type { Joint } from './parts.js';
-import { Handle, none } from './runtime.js';
+import { Handle } from './runtime.js';
 
 /** Options of a Binding. */
-export interface BindingOptions {
+export interface BindingOptions extends Omit<BendyBindingOptions, 'translations' | 'root'> {
   /** Only the root takes translations, so that limbs keep the lengths of the posed model. */
   rootOnly?: boolean;
   /** With `rootOnly`: this joint of the posed model and its ancestors take translations; usually the hips. */
@@ -26,16 +27,15 @@ export class Binding extends Handle {
 
   /** Throws NOT_FOUND, BAD_ARGUMENT, OUT_OF_MEMORY. */
   constructor(animated: Model, posed: Model, options: BindingOptions = {}) {
-    const { runtime } = animated;
     animated.checkSameRuntime(posed);
-    const { functions, error, view } = runtime;
-    const root = options.root === undefined ? none : posed.joints.number(options.root);
-    const at = runtime.struct(bindingOptionsLayout);
-    view.setUint32(at + bindingOptionsLayout.translations, options.rootOnly ? 1 : 0, true);
-    view.setUint32(at + bindingOptionsLayout.root, root, true);
-    view.setFloat32(at + bindingOptionsLayout.rootScale, options.rootScale ?? 1, true);
-    const handle = runtime.checkHandle(functions.bendy_binding_new(animated.handle, posed.handle, at, error));
-    super(runtime, handle, () => functions.bendy_binding_free(handle));
+    const { runtime } = animated;
+    const { rootOnly, root, ...others } = options;
+    const handle = runtime.calls.bendy_binding_new(animated, posed, {
+      ...others,
+      translations: rootOnly ? 'root_only' : 'all',
+      root: root === undefined ? null : posed.joints.number(root),
+    });
+    super(runtime, handle, runtime.functions.bendy_binding_free);
     this.own(animated.useFile());
     this.own(posed.useFile());
     this.animated = animated;
@@ -44,16 +44,25 @@ export class Binding extends Handle {
 
   /** For each joint of the animated model the posed model's, or -1. */
   get joints(): Int32Array {
-    const at = this.runtime.functions.bendy_binding_joints(this.handle);
-    return new Int32Array(this.runtime.copyIntegers(at, this.animated.joints.length).buffer);
+    const at = this.runtime.calls.bendy_binding_joints(this);
+    return this.runtime.copyIndices(at, this.animated.joints.length);
+  }
+
+  /** For each morph target of the animated model the posed model's, or -1. */
+  get targets(): Int32Array {
+    const at = this.runtime.calls.bendy_binding_targets(this);
+    return this.runtime.copyIndices(at, this.animated.morphTargets.length);
   }
 
   /** The joints of the animated model that some clip animates but that have no match. */
   get unmatchedJoints(): Joint[] {
-    const { runtime } = this;
-    const at = runtime.functions.bendy_binding_unmatched_joints(this.handle, runtime.scratch, runtime.error);
-    if (at === 0) return [];
-    const count = runtime.view.getUint32(runtime.scratch, true);
-    return Array.from(runtime.copyIntegers(at, count), (joint) => this.animated.joints[joint]!);
+    const joints = this.runtime.calls.bendy_binding_unmatched_joints(this);
+    return Array.from(joints, (joint) => this.animated.joints[joint]!);
+  }
+
+  /** The morph targets of the animated model that some clip animates but that have no match. */
+  get unmatchedTargets(): MorphTarget[] {
+    const targets = this.runtime.calls.bendy_binding_unmatched_targets(this);
+    return Array.from(targets, (target) => this.animated.morphTargets[target]!);
   }
 }

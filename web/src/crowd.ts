@@ -5,14 +5,13 @@ import { checkIndex, type Key } from './items.js';
 import type { LevelOfDetail } from './lod.js';
 import type { Mesh } from './mesh.js';
 import type { Model } from './model.js';
-import { type FloatBuffer, Handle, none } from './runtime.js';
+import { type FloatBuffer, none, OfModel } from './runtime.js';
 
 /**
  * Many characters of one model, each at a time of a clip, in one call: their palettes, one after another, as a texture of a GPU
  * takes them. `positions` adds their skinned vertices. Only making it allocates.
  */
-export class Crowd extends Handle {
-  readonly model: Model;
+export class Crowd extends OfModel {
   /** The number of characters. */
   readonly size: number;
   /** The number of matrices per character: of all meshes, mesh after mesh; see `firstMatrix`. */
@@ -27,13 +26,10 @@ export class Crowd extends Handle {
   constructor(model: Model, size: number, options: { positions?: boolean } = {}) {
     if (!Number.isInteger(size) || size < 0) throw new BendyError('bad_argument', `a crowd of ${size} is none`);
     const { runtime } = model;
-    const { functions, error } = runtime;
-    const handle = runtime.checkHandle(functions.bendy_crowd_new(model.handle, 1, error));
-    super(runtime, handle, () => functions.bendy_crowd_free(handle));
-    this.own(model.useFile());
-    this.model = model;
+    const { calls, functions } = runtime;
+    super(model, calls.bendy_crowd_new(model, 1), functions.bendy_crowd_free);
     this.size = size;
-    this.matrixCount = functions.bendy_crowd_palette_size(handle);
+    this.matrixCount = calls.bendy_crowd_palette_size(this);
     this.#palettes = this.ownFloats(16 * this.matrixCount * size);
     this.#members = this.ownBytes(crowdMemberLayout.size * size);
     const vertexCount = model.vertexCount;
@@ -61,7 +57,7 @@ export class Crowd extends Handle {
 
   /** Returns the index of a mesh's first matrix within a character. A rigid mesh has one; neighbours with equal palettes share theirs. Throws NOT_FOUND. */
   firstMatrix(mesh: Key<Mesh>): number {
-    return this.runtime.functions.bendy_crowd_first_matrix(this.handle, this.model.meshes.number(mesh));
+    return this.runtime.calls.bendy_crowd_first_matrix(this, this.model.meshes.number(mesh));
   }
 
   /**
@@ -83,8 +79,7 @@ export class Crowd extends Handle {
   /** Poses all characters. Throws BAD_ARGUMENT, or DISPOSED for a level of detail, and then nothing has changed. */
   play(): this {
     for (const lod of this.#lods.values()) void lod.handle;
-    const { functions, error } = this.runtime;
-    this.runtime.check(functions.bendy_crowd_play(this.handle, this.#members, this.size, 0, error));
+    this.runtime.calls.bendy_crowd_play(this, this.#members, this.size, 0);
     return this;
   }
 

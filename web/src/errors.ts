@@ -1,20 +1,12 @@
+import type { Status } from './generated/bindings.js';
+
 /**
  * What kind of error it is. Of a file: `malformed` (damaged, or not a bendy file), `invalid` (its structure is sound, its content
  * is not), `unsupported` (valid, but this version cannot read it). Of a call: `bad_argument`, `not_found`, `out_of_memory`,
  * `disposed`. Of the module: `io` (it could not be loaded). Of the tools: `conversion` (the source cannot be converted), `edit` (the
  * file cannot be changed so).
  */
-export type ErrorKind =
-  | 'bad_argument'
-  | 'not_found'
-  | 'out_of_memory'
-  | 'io'
-  | 'malformed'
-  | 'invalid'
-  | 'unsupported'
-  | 'disposed'
-  | 'conversion'
-  | 'edit';
+export type ErrorKind = Exclude<Status, 'ok'> | 'disposed' | 'conversion' | 'edit';
 
 /** Every error that this package throws. */
 export class BendyError extends Error {

@@ -8,29 +8,30 @@
  */
 export { Binding, type BindingOptions } from './binding.js';
 export { Bounds, type Box } from './bounds.js';
-export { Clip, Curve, type Interpolation, type Marker, type Track } from './clip.js';
+export { Clip, Curve, type Marker, type Track } from './clip.js';
 export { Crowd } from './crowd.js';
 export { BendyError, type ErrorKind } from './errors.js';
+export type { Easing, Interpolation, LoopMode, Solver, StreamKind } from './generated/bindings.js';
 export { type Item, Items, type Key } from './items.js';
 export { hasSimd, init, type LoadOptions, loadRuntime } from './load.js';
 export { LevelOfDetail } from './lod.js';
-export { Mesh, MorphTarget, type StoredArray, Stream, type StreamKind } from './mesh.js';
+export { Mesh, MorphTarget, type StoredArray, Stream } from './mesh.js';
 export { Model, type OpenOptions } from './model.js';
 export type {
   Chain,
   Constraint,
   Image,
   Joint,
+  JointSubmesh,
   Material,
   Quaternion,
-  Solver,
   Submesh,
   Texture,
   TextureUse,
   Transform,
   Vector3,
 } from './parts.js';
-export { CrossFade, type Easing, Fade, type LoopMode, Playback, type Playing, type PlayOptions } from './play.js';
-export { Pose, type ReachOptions, type ReachResult, SkinnedVertices, type SkinOptions, type SocketOptions } from './pose.js';
+export { CrossFade, ease, Fade, Playback, type Playing, type PlayOptions } from './play.js';
+export { Pose, type ReachOptions, type ReachRequest, type ReachResult, SkinnedVertices, type SkinOptions, type SocketOptions } from './pose.js';
 export { blendMotions, composeMotions, motionMatrix, type RootAxes, type RootMotion, RootPath } from './root_motion.js';
 export { Handle, Runtime } from './runtime.js';

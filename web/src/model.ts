@@ -1,7 +1,7 @@
 import { asBytes } from './bytes.js';
 import { Clip } from './clip.js';
 import { BendyError } from './errors.js';
-import { openOptionsLayout } from './generated/bindings.js';
+import type { BendyOpenOptions } from './generated/bindings.js';
 import { checkIndex, indexOwn, Items, type Key } from './items.js';
 import { init, loadedRuntime } from './load.js';
 import { Mesh, type MorphTarget } from './mesh.js';
@@ -9,25 +9,19 @@ import {
   type Chain,
   type Constraint,
   type Joint,
+  type JointSubmesh,
   type Material,
-  parseJson,
   type Quaternion,
   readChain,
-  readConstraint,
-  readJoint,
-  readMaterial,
-  readSubmesh,
   readTexture,
   type Submesh,
   type Texture,
 } from './parts.js';
 import { Pose } from './pose.js';
-import { Handle, none, type Runtime } from './runtime.js';
+import { Handle, type Runtime } from './runtime.js';
 
 /** How a model is opened. */
-export interface OpenOptions {
-  /** Which object of the file; 0 if not given. */
-  object?: number;
+export interface OpenOptions extends Omit<BendyOpenOptions, 'sumsLater' | 'copied'> {
   /** False: the bytes are not checked against their integrity sums before `checkSums`. True if not given. */
   checkSums?: boolean;
   /** The instance of the module to open it in; the default one if not given. */
@@ -67,6 +61,7 @@ export class Model extends Handle {
   #textures: Items<Texture> | undefined;
   #constraints: readonly Constraint[] | undefined;
   #submeshes: readonly Submesh[] | undefined;
+  #jointSubmeshes: readonly JointSubmesh[] | undefined;
   #morphTargets: Items<MorphTarget> | undefined;
   #vertexCount: number | undefined;
 
@@ -90,14 +85,11 @@ export class Model extends Handle {
   /** As `open`, at once. Throws the same, and BAD_ARGUMENT before `init` is done. */
   static openSync(bytes: ArrayBuffer | Uint8Array, options: OpenOptions = {}): Model {
     const runtime = options.runtime ?? loadedRuntime();
-    const { functions, error } = runtime;
     const content = asBytes(bytes);
     const file = new FileBytes(runtime, content);
     try {
-      const at = runtime.struct(openOptionsLayout);
-      runtime.view.setUint32(at + openOptionsLayout.object, checkIndex(options.object ?? 0, none, 'object'), true);
-      runtime.view.setUint32(at + openOptionsLayout.sumsLater, options.checkSums === false ? 1 : 0, true);
-      return new Model(runtime, runtime.checkHandle(functions.bendy_open_borrowed(file.at, content.byteLength, at, error)), file);
+      const given = { object: options.object, sumsLater: options.checkSums === false };
+      return new Model(runtime, runtime.calls.bendy_open_borrowed(file.at, content.byteLength, given), file);
     } catch (failure) {
       file.release();
       throw failure;
@@ -107,108 +99,125 @@ export class Model extends Handle {
   /** @internal Keeps the file's bytes, and the lists, for an object that uses the model; the result gives the bytes back. */
   useFile(): () => void {
     const file = this.#file;
-    void [this.joints, this.meshes, this.clips, this.chains, this.morphTargets, this.vertexCount];
+    void [this.joints, this.parents, this.meshes, this.clips, this.chains, this.morphTargets, this.vertexCount];
     file.use();
     return () => file.release();
   }
 
   /** Checks all bytes against their integrity sums. Throws the first chunk that differs: SUM_MISMATCH with path and offset. */
   checkSums(): void {
-    this.runtime.check(this.runtime.functions.bendy_check_sums(this.handle, this.runtime.error));
+    this.runtime.calls.bendy_check_sums(this);
   }
 
   /** The name of the object; "" if it has none. */
   get name(): string {
-    return this.runtime.text(this.runtime.functions.bendy_model_name(this.handle));
+    return this.runtime.calls.bendy_model_name(this);
   }
 
   /** Application-specific data of the object: JSON, parsed; null if there is none. */
   get extras(): unknown {
-    return parseJson(this.runtime.text(this.runtime.functions.bendy_model_extras(this.handle)));
+    return this.runtime.calls.bendy_model_extras(this);
   }
 
   /** Application-specific data of the whole file: JSON, parsed; null if there is none. */
   get fileExtras(): unknown {
-    return parseJson(this.runtime.text(this.runtime.functions.bendy_file_extras(this.handle)));
+    return this.runtime.calls.bendy_file_extras(this);
   }
 
   /** The joints. A parent comes before its children. */
   get joints(): Items<Joint> {
-    return (this.#joints ??= Items.make('joint', this.runtime.functions.bendy_joint_count(this.handle), (number) =>
-      readJoint(this.runtime, this.handle, number),
-    ));
+    const { calls } = this.runtime;
+    return (this.#joints ??= Items.make('joint', calls.bendy_joint_count(this), (number) => ({
+      ...calls.bendy_get_joint(this, number),
+      number,
+    })));
   }
 
   /** For each joint its parent, or -1 for a root. */
   get parents(): Int32Array<ArrayBuffer> {
-    return (this.#parents ??= Int32Array.from(this.joints, (joint) => joint.parent ?? -1));
+    const { runtime } = this;
+    return (this.#parents ??= runtime.copyIndices(runtime.calls.bendy_joint_parents(this), this.joints.length));
   }
 
   get meshes(): Items<Mesh> {
-    return (this.#meshes ??= Items.make(
-      'mesh',
-      this.runtime.functions.bendy_mesh_count(this.handle),
-      (number) => new Mesh(this, number),
-    ));
+    const { calls } = this.runtime;
+    return (this.#meshes ??= Items.make('mesh', calls.bendy_mesh_count(this), (number) => new Mesh(this, number)));
   }
 
   get clips(): Items<Clip> {
-    return (this.#clips ??= Items.make(
-      'clip',
-      this.runtime.functions.bendy_clip_count(this.handle),
-      (number) => new Clip(this, number),
-    ));
+    const { calls } = this.runtime;
+    return (this.#clips ??= Items.make('clip', calls.bendy_clip_count(this), (number) => new Clip(this, number)));
   }
 
   /** The IK chains. */
   get chains(): Items<Chain> {
-    return (this.#chains ??= Items.make('chain', this.runtime.functions.bendy_chain_count(this.handle), (number) =>
-      readChain(this.runtime, this.handle, number),
-    ));
+    const { calls } = this.runtime;
+    return (this.#chains ??= Items.make('chain', calls.bendy_chain_count(this), (number) => readChain(this, number)));
+  }
+
+  /** The numbers of the chains in the order in which `Pose.reachAll` solves them. */
+  get chainOrder(): Int32Array<ArrayBuffer> {
+    return this.runtime.copyIndices(this.runtime.calls.bendy_chain_order(this), this.chains.length);
   }
 
   get materials(): Items<Material> {
-    return (this.#materials ??= Items.make('material', this.runtime.functions.bendy_material_count(this.handle), (number) =>
-      readMaterial(this.runtime, this.handle, number),
-    ));
+    const { calls } = this.runtime;
+    return (this.#materials ??= Items.make('material', calls.bendy_material_count(this), (number) => ({
+      ...calls.bendy_get_material(this, number),
+      number,
+    })));
   }
 
   /** The textures, with copies of their images. */
   get textures(): Items<Texture> {
-    return (this.#textures ??= Items.make('texture', this.runtime.functions.bendy_texture_count(this.handle), (number) =>
-      readTexture(this.runtime, this.handle, number),
-    ));
+    const { calls } = this.runtime;
+    return (this.#textures ??= Items.make('texture', calls.bendy_texture_count(this), (number) => readTexture(this, number)));
   }
 
   /** The constraints, ordered by joint. */
   get constraints(): readonly Constraint[] {
-    const count = this.runtime.functions.bendy_constraint_count(this.handle);
-    return (this.#constraints ??= Array.from({ length: count }, (_, number) => readConstraint(this.runtime, this.handle, number)));
+    const { calls } = this.runtime;
+    return (this.#constraints ??= Array.from({ length: calls.bendy_constraint_count(this) }, (_, number) => ({
+      ...calls.bendy_get_constraint(this, number),
+      number,
+    })));
   }
 
   /** The draw calls of all meshes. */
   get submeshes(): readonly Submesh[] {
-    const count = this.runtime.functions.bendy_submesh_count(this.handle);
-    return (this.#submeshes ??= Array.from({ length: count }, (_, number) => readSubmesh(this.runtime, this.handle, number)));
+    const { calls } = this.runtime;
+    return (this.#submeshes ??= Array.from({ length: calls.bendy_submesh_count(this) }, (_, number) => ({
+      ...calls.bendy_get_submesh(this, number),
+      number,
+    })));
+  }
+
+  /** The ranges of the meshes' index lists that belong to one joint: for hit tests, severed limbs, culling. */
+  get jointSubmeshes(): readonly JointSubmesh[] {
+    const { calls } = this.runtime;
+    return (this.#jointSubmeshes ??= Array.from({ length: calls.bendy_joint_submesh_count(this) }, (_, number) => ({
+      ...calls.bendy_get_joint_submesh(this, number),
+      number,
+    })));
   }
 
   /** The morph targets of all meshes, mesh after mesh. */
   get morphTargets(): Items<MorphTarget> {
     if (this.#morphTargets === undefined) {
       const all = this.meshes.flatMap((mesh) => [...mesh.morphTargets]);
-      this.#morphTargets = Items.make('morph target', all.length, (number) => all[number]!);
+      this.#morphTargets = Items.make('morph target', this.runtime.calls.bendy_morph_target_count(this), (number) => all[number]!);
     }
     return this.#morphTargets;
   }
 
   /** The number of vertices of all meshes together. */
   get vertexCount(): number {
-    return (this.#vertexCount ??= Number(this.runtime.functions.bendy_vertex_count(this.handle)));
+    return (this.#vertexCount ??= this.runtime.calls.bendy_vertex_count(this));
   }
 
   /** Whether the file has levels of detail: see `LevelOfDetail`. */
   get hasLevels(): boolean {
-    return this.runtime.functions.bendy_has_levels(this.handle) !== 0;
+    return this.runtime.calls.bendy_has_levels(this) !== 0;
   }
 
   /** Returns a new pose, at rest. Throws OUT_OF_MEMORY, DISPOSED. */
@@ -226,12 +235,8 @@ export class Model extends Handle {
    * all others. Throws NOT_FOUND, BAD_ARGUMENT.
    */
   maskBelow(joint: Key<Joint>, inside = 1, outside = 0): Float32Array<ArrayBuffer> {
-    const { runtime, handle } = this;
-    const count = this.joints.length;
     const number = this.joints.number(joint);
-    return runtime.fetchFloats(count, (at) =>
-      runtime.functions.bendy_mask_below(handle, number, inside, outside, at, count, runtime.error),
-    );
+    return this.runtime.calls.bendy_mask_below(this, number, inside, outside, this.joints.length);
   }
 
   /**
@@ -239,23 +244,27 @@ export class Model extends Handle {
    * the rotation is legal. Throws BAD_ARGUMENT for a constraint of another model, and for a rotation that is not a unit quaternion.
    */
   clampRotation(constraint: Constraint | number, rotation: ArrayLike<number>): { rotation: Quaternion; violation: number } {
-    const { runtime, handle } = this;
-    const { functions, error, scratch } = runtime;
+    const { calls } = this.runtime;
+    const number = this.#constraintNumber(constraint);
+    const relative = calls.bendy_to_constraint_space(this, number, rotation);
+    const { clamped, violation } = calls.bendy_clamp_rotation(this, number, relative);
+    const legal = calls.bendy_from_constraint_space(this, number, clamped);
+    return { rotation: Array.from(legal) as Quaternion, violation };
+  }
+
+  #constraintNumber(constraint: Constraint | number): number {
     const { constraints } = this;
-    const number =
-      typeof constraint === 'number'
-        ? checkIndex(constraint, constraints.length, 'constraint')
-        : indexOwn(constraints, constraint, 'constraint');
-    runtime.putFloats(scratch, rotation, 4, 'rotation');
-    const relative = scratch + 32;
-    const violation = scratch + 64;
-    runtime.check(functions.bendy_to_constraint_space(handle, number, scratch, relative, error));
-    runtime.check(functions.bendy_clamp_rotation(handle, number, relative, relative, violation, error));
-    runtime.check(functions.bendy_from_constraint_space(handle, number, relative, scratch, error));
-    return {
-      rotation: Array.from(runtime.copyFloats(scratch, 4)) as Quaternion,
-      violation: runtime.view.getFloat64(violation, true),
-    };
+    return typeof constraint === 'number'
+      ? checkIndex(constraint, constraints.length, 'constraint')
+      : indexOwn(constraints, constraint, 'constraint');
+  }
+
+  /** Returns the constraint of a joint in poses or, if `inReach`, in IK solvers; null if it has none. Throws NOT_FOUND. */
+  constraintOf(joint: Key<Joint>, inReach = false): Constraint | null {
+    const { calls } = this.runtime;
+    const number = this.joints.number(joint);
+    const found = inReach ? calls.bendy_joint_ik_constraint(this, number) : calls.bendy_joint_constraint(this, number);
+    return found === null ? null : this.constraints[found]!;
   }
 
   /** @internal Throws unless both are in the same memory. */

@@ -1,12 +1,13 @@
 import { BendyError, type ErrorKind } from './errors.js';
-import { type Functions, readBendyError, errorLayout, statusWords } from './generated/bindings.js';
+import { Calls, errorLayout, type Functions, readBendyError } from './generated/bindings.js';
+import type { Model } from './model.js';
 
 /** "None", for any index that a function of the module takes or returns. */
 export const none = 0xffffffff;
 
 const decoder = new TextDecoder();
 const encoder = new TextEncoder();
-const scratchSize = 1024;
+const scratchSize = 512;
 const alignment = 16;
 
 /**
@@ -23,8 +24,12 @@ export class Runtime {
   readonly functions: Functions;
   /** @internal Where errors are written. */
   readonly error: number;
-  /** @internal 1024 bytes for a struct and a few numbers, until the next call. */
+  /** @internal */
+  readonly calls: Calls;
+  /** @internal 512 bytes for what `calls` passes, until the next call. */
   readonly scratch: number;
+  /** @internal 512 bytes for a struct or a few numbers whose address is passed to `calls`. */
+  readonly spare: number;
   #view: DataView;
   #bytes: Uint8Array<ArrayBuffer>;
 
@@ -34,8 +39,10 @@ export class Runtime {
     this.simd = simd;
     this.#view = new DataView(functions.memory.buffer);
     this.#bytes = new Uint8Array(functions.memory.buffer);
+    this.calls = new Calls(this);
     this.error = this.allocate(errorLayout.size);
-    this.scratch = this.allocate(scratchSize);
+    this.scratch = this.allocate(2 * scratchSize);
+    this.spare = this.scratch + scratchSize;
   }
 
   /** The size of the module's memory in bytes, whether in use or not. */
@@ -43,9 +50,14 @@ export class Runtime {
     return this.functions.memory.buffer.byteLength;
   }
 
+  /** The version of the runtime: "0.1.0". */
+  get version(): string {
+    return this.calls.bendy_version_string();
+  }
+
   /** The name of the arithmetic in use: "wasm" for SIMD, or "plain". */
   get kernel(): string {
-    return this.text(this.functions.bendy_kernel());
+    return this.calls.bendy_kernel();
   }
 
   /** @internal */
@@ -102,20 +114,57 @@ export class Runtime {
     return decoder.decode(this.bytes.subarray(at, this.bytes.indexOf(0, at)));
   }
 
-  /** @internal A struct that begins with its size: in the scratch memory, all other fields 0. */
-  struct(layout: { size: number }, at = this.scratch): number {
+  /** @internal JSON of a file, which the format does not check, at an address; null for none. */
+  json(at: number): unknown {
+    const text = this.text(at);
+    if (text === '') return null;
+    try {
+      return JSON.parse(text) as unknown;
+    } catch {
+      return text;
+    }
+  }
+
+  /** @internal A struct that begins with its size, all other fields 0. */
+  struct(layout: { size: number }, at: number): number {
     this.bytes.fill(0, at, at + layout.size);
     this.view.setUint32(at, layout.size, true);
     return at;
   }
 
-  /** @internal Writes numbers to an address: for what is so small that it is in the scratch memory. */
-  putFloats(at: number, numbers: ArrayLike<number>, count: number, name: string): number {
-    if (numbers.length !== count) {
-      throw new BendyError('bad_argument', `${name} has ${numbers.length} numbers, not ${count}`);
+  /** @internal The number of a word in an enumeration. */
+  word<T extends string>(words: readonly T[], word: T, name: string): number {
+    const number = words.indexOf(word);
+    if (number < 0) throw new BendyError('bad_argument', `${name} ${JSON.stringify(word)} is none of ${words.join(', ')}`);
+    return number;
+  }
+
+  /** @internal */
+  putWord<T extends string>(at: number, words: readonly T[], word: T, name: string): void {
+    this.view.setUint32(at, this.word(words, word, name), true);
+  }
+
+  /** @internal */
+  putWhole(at: number, number: number, name: string): void {
+    if (!Number.isInteger(number) || number < 0 || number > none) {
+      throw new BendyError('bad_argument', `${name} is ${number}, not a whole number from 0`);
     }
-    const view = this.view;
+    this.view.setUint32(at, number, true);
+  }
+
+  /** @internal Writes numbers to an address. */
+  putFloats(at: number, numbers: ArrayLike<number>, count: number, name: string): number {
+    checkLength(numbers, count, name);
+    const { view } = this;
     for (let i = 0; i < count; ++i) view.setFloat32(at + 4 * i, numbers[i]!, true);
+    return at;
+  }
+
+  /** @internal */
+  putDoubles(at: number, numbers: ArrayLike<number>, count: number, name: string): number {
+    checkLength(numbers, count, name);
+    const { view } = this;
+    for (let i = 0; i < count; ++i) view.setFloat64(at + 8 * i, numbers[i]!, true);
     return at;
   }
 
@@ -125,24 +174,18 @@ export class Runtime {
   }
 
   /** @internal */
+  copyDoubles(at: number, count: number): Float64Array<ArrayBuffer> {
+    return new Float64Array(this.functions.memory.buffer, at, count).slice();
+  }
+
+  /** @internal */
   copyIntegers(at: number, count: number): Uint32Array<ArrayBuffer> {
     return count === 0 ? new Uint32Array(0) : new Uint32Array(this.functions.memory.buffer, at, count).slice();
   }
 
-  /** @internal Fetches `count` floats by a call that writes them to an address. */
-  fetchFloats(count: number, call: (at: number) => number): Float32Array<ArrayBuffer> {
-    return this.borrow(4 * count, (at) => {
-      this.check(call(at));
-      return this.copyFloats(at, count);
-    });
-  }
-
-  /** @internal */
-  fetchIntegers(count: number, call: (at: number) => number): Uint32Array<ArrayBuffer> {
-    return this.borrow(4 * count, (at) => {
-      this.check(call(at));
-      return this.copyIntegers(at, count);
-    });
+  /** @internal A copy of indices, -1 for none. */
+  copyIndices(at: number, count: number): Int32Array<ArrayBuffer> {
+    return new Int32Array(this.copyIntegers(at, count).buffer);
   }
 
   /** @internal Throws the error of a call that returned a status other than 0. */
@@ -160,12 +203,17 @@ export class Runtime {
     const { status, code, message, offset } = readBendyError(this, this.error);
     // A fault in a file ends with its place: "... (HEAD/OBJE, offset 120)".
     const path = /\((HEAD.*), offset \d+\)$/.exec(message)?.[1] ?? '';
-    return new BendyError((statusWords[status] ?? 'io') as ErrorKind, message, code, path, offset);
+    return new BendyError(status as ErrorKind, message, code, path, offset);
   }
 
   private outOfMemory(): BendyError {
     return new BendyError('out_of_memory', 'there is not enough memory');
   }
+}
+
+function checkLength(numbers: ArrayLike<number>, count: number, name: string): void {
+  if (numbers.length === count) return;
+  throw new BendyError('bad_argument', `${name} has ${numbers.length} numbers, not ${count}`);
 }
 
 /** Numbers in the module's memory that are viewed again and again. */
@@ -212,10 +260,10 @@ export abstract class Handle {
   readonly #handle: number;
 
   /** @internal */
-  protected constructor(runtime: Runtime, handle: number, release: () => void) {
+  protected constructor(runtime: Runtime, handle: number, free: (handle: number) => void) {
     this.runtime = runtime;
     this.#handle = handle;
-    this.#owned.releases.push(release);
+    this.#owned.releases.push(() => free(handle));
     forgotten.register(this, this.#owned, this);
   }
 
@@ -263,6 +311,18 @@ export abstract class Handle {
 }
 
 export interface Handle extends Disposable {}
+
+/** An object that is made from a model, and uses its file. */
+export abstract class OfModel extends Handle {
+  readonly model: Model;
+
+  /** @internal */
+  protected constructor(model: Model, handle: number, free: (handle: number) => void) {
+    super(model.runtime, handle, free);
+    this.own(model.useFile());
+    this.model = model;
+  }
+}
 
 // Engines without explicit resource management have no such symbol.
 if (Symbol.dispose !== undefined) {

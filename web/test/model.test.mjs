@@ -57,6 +57,24 @@ test('joints, clips, chains, constraints and meshes of the mannequin', () => {
   model.dispose();
 });
 
+test('constraints, the order of chains and the parts of joints', () => {
+  const model = Model.openSync(read(example('mannequin')), { runtime: simd });
+  for (const { number, joint, scope } of model.constraints) {
+    if (scope !== 'ik_only') assert.equal(model.constraintOf(joint).number, number);
+    if (scope !== 'all_but_ik') assert.equal(model.constraintOf(joint, true).number, number);
+  }
+  const free = model.joints.find((joint) => model.constraints.every((constraint) => constraint.joint !== joint.number));
+  assert.equal(model.constraintOf(free), null);
+  assert.throws(() => model.constraintOf('Tail'), { code: 'NOT_FOUND' });
+  assert.deepEqual(Array.from(model.chainOrder).sort(), model.chains.map((chain) => chain.number));
+  for (const { joint, mesh, first, count } of model.jointSubmeshes) {
+    assert.ok(model.joints[joint]);
+    assert.ok(first + count <= model.meshes[mesh].indexCount);
+  }
+  assert.match(simd.version, /^\d+\.\d+\.\d+$/);
+  model.dispose();
+});
+
 test('texts refer to names and numbers as everywhere', () => {
   const lines = readFileSync(join(repository, 'tests/format/name_keys.txt'), 'utf8').trim().split('\n');
   const [[, ...names], ...keys] = lines.filter((line) => !line.startsWith('//')).map((line) => line.split(' '));

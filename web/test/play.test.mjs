@@ -8,6 +8,7 @@ import {
   composeMotions,
   CrossFade,
   Crowd,
+  ease,
   Fade,
   init,
   LevelOfDetail,
@@ -129,10 +130,18 @@ test('clips of another model', () => {
   const binding = new Binding(other, model);
   assert.deepEqual(Array.from(binding.joints), model.joints.map((joint) => joint.number));
   assert.deepEqual(binding.unmatchedJoints, []);
+  assert.deepEqual(Array.from(binding.targets), model.morphTargets.map((target) => target.number));
+  assert.deepEqual(binding.unmatchedTargets, []);
   const bound = model.pose().sampleBound(binding, 'Walk', 0.3);
   assert.deepEqual(bound.skin().positions.slice(), model.sample('Walk', 0.3).skin().positions);
   assert.throws(() => new Binding(other, Model.openSync(mannequin, { runtime: plain })), { code: 'BAD_ARGUMENT' });
   model.dispose();
+});
+
+test('weights are eased', () => {
+  assert.equal(ease('linear', 0.25), 0.25);
+  assert.equal(ease('smooth', 0.25), 0.15625);
+  assert.throws(() => ease('sudden', 0), { code: 'BAD_ARGUMENT' });
 });
 
 /** A model, and one of everything that is made from it. */

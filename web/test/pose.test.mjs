@@ -153,6 +153,66 @@ test('reach goes to the target within the constraints, as the program', async ()
   }
 });
 
+test('several chains reach as one after another', async () => {
+  for (const runtime of [simd, plain]) {
+    const model = await Model.open(read(example('mannequin')), { runtime });
+    const requests = [
+      { chain: 'IK_LeftArm', position: [0.3, 1.2, 0.4] },
+      { chain: 'IK_RightArm', position: [-0.3, 1.3, 0.3], options: { influence: 0.5, obeyConstraints: false } },
+      { chain: 2, position: [0.1, 0.3, 0.2], rotation: [0, 0, 0, 1] },
+      { chain: 'IK_LeftArm', position: [2, 1, 0], options: { solver: 'ccd', iterations: 3 } },
+    ];
+    const together = model.sample('Walk', 0.3);
+    const single = together.copy();
+    const results = together.reachChains(requests);
+    assert.deepEqual(
+      results,
+      requests.map(({ chain, position, rotation, options }) => single.reach(chain, position, { rotation, ...options })),
+    );
+    assert.ok(results[0].reached && !results[3].reached);
+    assert.deepEqual(together.locals.slice(), single.locals);
+    assert.deepEqual(together.reachChains([]), []);
+
+    const wrong = [
+      [{ chain: 'IK_Tail', position: [0, 0, 0] }, 'NOT_FOUND'],
+      [{ chain: 0, position: [0, 0] }, 'BAD_ARGUMENT'],
+      [{ chain: 0, position: [0, 0, Number.NaN] }, 'BAD_ARGUMENT'],
+      [{ chain: 0, position: [0, 0, 0], options: { iterations: -1 } }, 'BAD_ARGUMENT'],
+      [{ chain: 0, position: [0, 0, 0], options: { solver: 'guess' } }, 'BAD_ARGUMENT'],
+    ];
+    for (const [request, code] of wrong) {
+      assert.throws(() => together.reachChains([requests[1], request]), { code });
+      assert.deepEqual(together.locals.slice(), single.locals); // nothing has moved
+    }
+    model.dispose();
+  }
+});
+
+test('each option of reach arrives', async () => {
+  const model = await Model.open(read(example('mannequin')), { runtime: plain });
+  const reached = (options) => {
+    const pose = model.sample('Walk', 0.3).constrain();
+    const { status, distance, iterations } = pose.reach('IK_LeftArm', [0.5, 1.3, 0.2], options);
+    return JSON.stringify([status, distance, iterations, ...pose.locals]);
+  };
+  const pull = { solver: 'pull', iterations: 3 };
+  const changes = [
+    [{}, { solver: 'ccd' }],
+    [{ solver: 'ccd' }, { solver: 'ccd', iterations: 1 }],
+    [{ solver: 'ccd' }, { solver: 'ccd', tolerance: 0.5 }],
+    [{}, { influence: 0.5 }],
+    [{}, { obeyConstraints: false }],
+    [{}, { rotation: [0, 1, 0, 0] }],
+    [{ solver: 'two_bone', obeyConstraints: false }, { solver: 'two_bone', obeyConstraints: false, pole: [0, 5, 0] }],
+    [{ solver: 'two_bone', obeyConstraints: false }, { solver: 'two_bone', obeyConstraints: false, softness: 0.5 }],
+    [pull, { ...pull, gain: 0.1 }],
+    [pull, { ...pull, stepLimit: 0.01 }],
+  ];
+  for (const [before, after] of changes) assert.ok(reached(before) !== reached(after), JSON.stringify(after));
+  assert.ok(reached({}) === reached({ solver: 'any', iterations: 0, restarts: 8, tolerance: 0, influence: 1, obeyConstraints: true }));
+  model.dispose();
+});
+
 test('blend, add, masks and local transforms', async () => {
   const model = await Model.open(read(example('mannequin')), { runtime: simd });
   const walk = model.sample('Walk', 0.3);

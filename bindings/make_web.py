@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""Makes what the WebAssembly module and its TypeScript share, from the C header: make_web.py BENDY_H FOLDER SOURCE...
+
+exports.txt   the functions that the module exports, for emscripten: those that the TypeScript sources call
+bindings.ts   their types; the words of the enumerations; each struct as an object, with its documentation, and what reads or writes
+              it; the class Calls, whose methods take and return such objects and throw
+layout.c      assertions about the structs' sizes and their fields' places, for the compiler
+"""
+
+import re
+import sys
+from pathlib import Path
+
+import describe
+from web_calls import Call
+from web_structs import Structs, camel, comment, pascal, short
+
+
+def raw_types(functions):
+    """The interface of what the module exports."""
+
+    def raw(kind, is_pointer):
+        return "void" if kind is None else "bigint" if kind.name in ("uint64_t", "int64_t") and not is_pointer else "number"
+
+    lines = ["export interface Functions {", "  memory: WebAssembly.Memory;", "  malloc(size: number): number;",
+             "  free(at: number): void;", "  _initialize(): void;"]
+    for function in functions:
+        listed = ", ".join(f"{one.name}: {raw(one.type, one.type.is_pointer or one.count)}" for one in function.parameters)
+        lines.append(f"  {function.name}({listed}): {raw(function.result, function.result and function.result.is_pointer)};")
+    return lines + ["}", ""]
+
+
+def words(structs):
+    lines = []
+    for enum in structs.api.enums.values():
+        if enum.is_list:
+            name = short(enum.name)
+            listed = ", ".join(f"'{word}'" for word in enum.words)
+            doc = [structs.phrase(enum.doc)]
+            doc += [f"`{word}`: {note[0]}{structs.phrase(note)[1:]}" for word, (_, _, note) in zip(enum.words, enum.values) if note]
+            lines += [f"export const {camel(name)}Words = [{listed}] as const;", *comment(" ".join(doc).strip()),
+                      f"export type {pascal(name)} = (typeof {camel(name)}Words)[number];", ""]
+    return lines
+
+
+def calls(structs, functions):
+    lines = ["/** The functions of bendy.h, with objects and lists instead of addresses. They throw the error of a failed call. */",
+             "export class Calls {", "  readonly #runtime: Runtime;", "", "  constructor(runtime: Runtime) {",
+             "    this.#runtime = runtime;", "  }"]
+    for function in functions:
+        if function.result:  # what frees an object is called with its address
+            lines += ["", *Call(structs, function).lines()]
+    return lines + ["}"]
+
+
+def checks(layouts):
+    lines = ["#include <bendy.h>", ""]
+    for name, layout in layouts.items():
+        lines.append(f"_Static_assert(sizeof({name}) == {layout.size}, \"{name}\");")
+        lines += [f"_Static_assert(offsetof({name}, {field}) == {at}, \"{name}.{field}\");" for field, at in layout.places.items()]
+    return lines
+
+
+def main():
+    api = describe.read(sys.argv[1])
+    folder = Path(sys.argv[2])
+    called = set(re.findall(r"\bbendy_\w+", "".join(Path(source).read_text(encoding="utf-8") for source in sys.argv[3:])))
+    functions = [function for function in api.functions.values() if function.name in called]
+    structs = Structs(api)
+    bindings = ["// Made from bendy.h by bindings/make_web.py.", "import type { Handle, Runtime } from '../runtime.js';", "",
+                *raw_types(functions), "function orNull(index: number): number | null {", "  return index === 0xffffffff ? null : index;",
+                "}", "", *words(structs), *structs.all(), *calls(structs, functions)]
+    exports = ["_malloc", "_free", *(f"_{function.name}" for function in functions)]
+    for name, lines in (("bindings.ts", bindings), ("exports.txt", exports), ("layout.c", checks(structs.layouts))):
+        (folder / name).write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
