@@ -72,7 +72,9 @@ def main():
                 "}", "", *words(structs), *structs.all(), *calls(structs, functions)]
     exports = ["_malloc", "_free", *(f"_{function.name}" for function in functions)]
     for name, lines in (("bindings.ts", bindings), ("exports.txt", exports), ("layout.c", checks(structs.layouts))):
-        (folder / name).write_text("\n".join(lines) + "\n", encoding="utf-8")
+        text = "\n".join(lines) + "\n"
+        if not (folder / name).exists() or (folder / name).read_text(encoding="utf-8") != text:  # what is the same needs no linking
+            (folder / name).write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

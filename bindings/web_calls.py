@@ -58,7 +58,7 @@ class Call:
             self.passed.append(f"{name}At")
         elif kind in self.structs.api.handles:
             self.given.append((name, "Handle", one.may_be_null))
-            self.passed.append(f"{name}?.handle ?? 0" if one.may_be_null else f"{name}.handle")
+            self.passed.append(f"runtime.address({name}, '{name}')")
         elif struct and not is_written and self.structs.is_given(struct):
             self.take_objects(name, struct) if is_count(after) else self.take_object(name, struct, one.may_be_null)
         elif struct and is_written and self.listed:

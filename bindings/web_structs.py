@@ -195,7 +195,7 @@ class Structs:
         key = camel(field.inverse or field.name)
         value = f"given.{key}"
         if field.type.is_pointer:
-            return "Handle", "", f"view.setUint32({at}, {value}?.handle ?? 0, true);"
+            return "Handle", "", f"view.setUint32({at}, runtime.address({value}, '{key}'), true);"
         if field.count:
             put = "putDoubles" if field.type.name == "double" else "putFloats"
             numbers = ", ".join(map(self.literal, default))

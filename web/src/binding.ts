@@ -27,7 +27,6 @@ export class Binding extends Handle {
 
   /** Throws NOT_FOUND, BAD_ARGUMENT, OUT_OF_MEMORY. */
   constructor(animated: Model, posed: Model, options: BindingOptions = {}) {
-    animated.checkSameRuntime(posed);
     const { runtime } = animated;
     const { rootOnly, root, ...others } = options;
     const handle = runtime.calls.bendy_binding_new(animated, posed, {

@@ -267,11 +267,6 @@ export class Model extends Handle {
     return found === null ? null : this.constraints[found]!;
   }
 
-  /** @internal Throws unless both are in the same memory. */
-  checkSameRuntime(other: Handle): void {
-    if (other.runtime !== this.runtime) throw new BendyError('bad_argument', 'the objects belong to different runtimes');
-  }
-
   /** @internal Throws unless something was made from this model. */
   checkOwn(made: { readonly model: Model }, kind: string): void {
     if (made.model !== this) throw new BendyError('bad_argument', `the ${kind} belongs to another model`);

@@ -135,7 +135,6 @@ export class CrossFade extends OfModel {
   play(clip: Key<Clip>, options: PlayOptions = {}): this {
     const number = this.model.clips.number(clip);
     const { fade = 0, easing = 'smooth', playback } = options;
-    if (playback !== undefined) this.model.checkSameRuntime(playback);
     this.runtime.calls.bendy_crossfade_play(this, number, playback, fade, easing);
     return this;
   }
@@ -148,7 +147,6 @@ export class CrossFade extends OfModel {
 
   /** Sets a pose of the model to the mix. Throws BAD_ARGUMENT if nothing plays, and for a pose of another model. */
   sample(pose: Pose): this {
-    this.model.checkOwn(pose, 'pose');
     this.runtime.calls.bendy_sample_crossfade(pose, this, this.#scratch);
     return this;
   }
@@ -178,14 +176,12 @@ export class CrossFade extends OfModel {
   getPlayback(playback: Playback): Playback {
     const newest = this.runtime.calls.bendy_crossfade_count(this) - 1;
     if (newest < 0) throw new BendyError('bad_argument', 'nothing plays');
-    this.model.checkSameRuntime(playback);
     this.runtime.calls.bendy_crossfade_get_playback(this, newest, playback);
     return playback;
   }
 
   /** Copies a clock into that of the newest clip: changes its speed or time. Throws BAD_ARGUMENT if nothing plays. */
   setPlayback(playback: Playback): this {
-    this.model.checkSameRuntime(playback);
     this.runtime.calls.bendy_crossfade_set_playback(this, playback);
     return this;
   }

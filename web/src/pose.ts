@@ -186,21 +186,18 @@ export class Pose extends OfModel {
    * weight is allowed. `mask` scales the weight, one number per joint. Throws BAD_ARGUMENT.
    */
   blend(other: Pose, weight: number, mask?: ArrayLike<number>): this {
-    this.model.checkOwn(other, 'pose');
     this.runtime.calls.bendy_blend(this, other, weight, this.#maskAt(mask));
     return this;
   }
 
   /** Turns the pose into its difference from a reference, as an input for `add`. Throws BAD_ARGUMENT. */
   makeAdditive(reference: Pose): this {
-    this.model.checkOwn(reference, 'pose');
     this.runtime.calls.bendy_make_additive(this, reference);
     return this;
   }
 
   /** Adds a difference that `makeAdditive` made, scaled by a weight and per joint by `mask`. Throws BAD_ARGUMENT. */
   add(difference: Pose, weight = 1, mask?: ArrayLike<number>): this {
-    this.model.checkOwn(difference, 'pose');
     this.runtime.calls.bendy_add(this, difference, weight, this.#maskAt(mask));
     return this;
   }
@@ -330,7 +327,6 @@ export class Pose extends OfModel {
     const mesh = key === undefined ? undefined : model.meshes.get(key);
     const first = mesh?.firstVertex ?? 0;
     const count = mesh?.vertexCount ?? vertexCount;
-    if (others.lod !== undefined) model.checkOwn(others.lod, 'level of detail');
     const out = runtime.struct(verticesLayout, runtime.spare);
     const { view } = runtime;
     view.setUint32(out + verticesLayout.capacity, count, true);

@@ -71,7 +71,6 @@ export class RootPath extends OfModel {
    * of another model.
    */
   extract(pose: Pose): RootMotion {
-    this.model.checkOwn(pose, 'pose');
     return this.runtime.calls.bendy_root_path_extract(this, pose);
   }
 }

@@ -132,6 +132,13 @@ export class Runtime {
     return at;
   }
 
+  /** @internal The address of an object, 0 for none. Throws DISPOSED; BAD_ARGUMENT for an object of another runtime. */
+  address(object: Handle | null | undefined, name: string): number {
+    if (object == null) return 0;
+    if (object.runtime === this) return object.handle;
+    throw new BendyError('bad_argument', `the ${name} belongs to another model, in another runtime`);
+  }
+
   /** @internal The number of a word in an enumeration. */
   word<T extends string>(words: readonly T[], word: T, name: string): number {
     const number = words.indexOf(word);
