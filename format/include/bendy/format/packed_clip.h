@@ -70,8 +70,8 @@ struct PackedView {
     [[nodiscard]] bool animates(std::uint32_t joint, TrackPath path) const;
     /// Returns the time of a frame in seconds on the clip's time line.
     [[nodiscard]] double time_of(std::uint32_t frame) const;
-    /// True if the frames are evenly spaced: no times are stored. Decided once, by read_packed: a denormal rate is not 0,
-    /// but compares equal to it in a thread that takes denormal numbers for zero.
+    /// True if the frames are evenly spaced: no times are stored. read_packed has decided it once, because a denormal
+    /// rate compares equal to 0 in a thread that takes denormal numbers for zero.
     [[nodiscard]] bool is_even() const { return times_at == offsets_at; }
 };
 
