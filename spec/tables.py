@@ -48,7 +48,7 @@ def read_records():
 
 def read_values():
     """enumeration -> names of its values from 0 on"""
-    return {name: names.split() for name, names in rows("records.def", "VALUES")}
+    return {name: names for name, _, *names in rows("records.def", "VALUES")}
 
 
 def read_leaves():

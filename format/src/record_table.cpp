@@ -3,6 +3,7 @@
 #include <bendy/format/records.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 
@@ -45,8 +46,18 @@ struct Values {
     std::string_view name, values;
 };
 
+/// "any pull two_bone" of "any, pull, two_bone", and zeros.
+template <std::size_t N>
+constexpr std::array<char, N> without_commas(const char (&list)[N]) {
+    std::array<char, N> words{};
+    std::copy_if(list, list + N, words.begin(), [](char c) { return c != ','; });
+    return words;
+}
+#define BENDY_VALUES(Values, kCount, ...) constexpr auto k##Values##Words = without_commas(#__VA_ARGS__);
+#include <bendy/format/records.def>
+
 constexpr Values kValues[] = {
-#define BENDY_VALUES(Values, names) {#Values, names},
+#define BENDY_VALUES(Values, kCount, ...) {#Values, k##Values##Words.data()},
 #include <bendy/format/records.def>
 };
 constexpr Note kEnums[] = {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Holds the specification against the code: python3 check_spec.py [SOURCE_DIR]
 
-Compares the tables of format/ (chunk_ids.def, records.def, error_codes.def, limits.h, the enumerations of records.h, the
+Compares the tables of format/ (chunk_ids.def, records.def, error_codes.def, limits.h, the
 flags of chunk.h, the stream rules of mesh.cpp, and references.def of extensions/) with the tables of spec/, in both directions, those of the grammar files
 bendy.ksy and bendy.hexpat among them; follows the links between pages; and asks the scripts of spec/ whether their dumps and files are what they make now. One line for each difference; exit 1 if
 there is one. Python 3, nothing else.
@@ -281,11 +281,17 @@ def check_records(check, records):
     check.same_keys('spec', 'record', list(found), list(records))
 
 
+def enumerations(check):
+    """enumeration -> [names in order of their values]"""
+    code = {enum: names.split(', ') for enum, names in
+            re.findall(r'^BENDY_VALUES\((\w+), k\w+, ([\w, ]+)\)$', check.code('records.def'), re.MULTILINE)}
+    lines = len(re.findall(r'^BENDY_VALUES\(', check.code('records.def'), re.MULTILINE))
+    check.understood(code and lines == len(code), 'the enumerations of records.def')
+    return code
+
+
 def check_enumerations(check):
-    code = {}
-    for enum, body in re.findall(r'enum class (\w+) : std::uint8_t \{([^}]*)\};', strip_comments(check.code('records.h'))):
-        code[enum] = re.findall(r'\w+', body)
-    check.understood(code, 'the enumerations of records.h')
+    code = enumerations(check)
     spec = {}
     for path in sorted(check.spec.glob('**/*.md')):
         for _, header, rows in tables(path.read_text(encoding='utf-8')):
@@ -299,11 +305,6 @@ def check_enumerations(check):
                     check.understood(sizes, 'component_size of records.h')
                     check.same(name, 'bytes of ComponentType', [row[2] for row in rows], re.findall(r'\d+', sizes[1]))
     check.same_keys('spec', 'enumeration', list(spec), list(code))
-    table = {enum: names.split() for enum, names in re.findall(r'^BENDY_VALUES\((\w+), "([^"]*)"\)$', check.code('records.def'), re.MULTILINE)}
-    here = ('ErrorCode', 'ErrorClass', 'FieldType')
-    check.same_keys('records.def', 'enumeration', list(table), list(code))
-    for enum in table.keys() & code.keys():
-        check.same('records.def', 'names of ' + enum, table[enum], code[enum])
 
 
 def check_leaves(check, chunks, records):
@@ -457,9 +458,7 @@ def check_grammar_records(check, name, found, records):
 
 def check_grammar_enumerations(check, name, found):
     """found: enumeration, in small letters, -> [names in order of their values]."""
-    code = {}
-    for enum, body in re.findall(r'enum class (\w+) : std::uint8_t \{([^}]*)\};', strip_comments(check.code('records.h'))):
-        code[snake(enum)] = re.findall(r'\w+', body)
+    code = {snake(enum): names for enum, names in enumerations(check).items()}
     check.same_keys(name, 'enumeration', list(found), list(code))
     for enum in found.keys() & code.keys():
         check.same(name, 'names of ' + enum, found[enum], code[enum])

@@ -4,10 +4,13 @@
 #include <bendy/format/limits.h>
 #include <bendy/format/public.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <string_view>
 #include <type_traits>
 
 // The fixed records as stored in the file; meaning, unit and range of each field are given in records.def.
@@ -255,53 +258,41 @@ struct ImageRecord {
     std::array<std::uint8_t, 15> reserved{};
 };
 
-// The values of the records' enumerations, and the number of values of each.
+/// The names in a list that the preprocessor made of them: "any, pull, two_bone".
+constexpr unsigned count_names(std::string_view list) {
+    unsigned count = 1;
+    for (const char c : list) count += c == ',' ? 1 : 0;
+    return count;
+}
+template <std::size_t N>
+constexpr std::array<std::string_view, N> split_names(std::string_view list) {
+    std::array<std::string_view, N> names;
+    for (std::string_view& name : names) {
+        name = list.substr(0, list.find(','));
+        list.remove_prefix(std::min(list.size(), name.size() + 2));
+    }
+    return names;
+}
 
-enum class ComponentType : std::uint8_t { u8, i8, u16, i16, u32, f32 };
-inline constexpr unsigned kComponentTypes = 6;
-enum class Numbers : std::uint8_t { plain, normalised, boxed, listed };
-inline constexpr unsigned kNumbers = 4;
-enum class Topology : std::uint8_t { triangles, lines, points };
-inline constexpr unsigned kTopologies = 3;
-enum class TrackPath : std::uint8_t { translation, rotation, scale, weights };
-inline constexpr unsigned kTrackPaths = 4;
-enum class Interpolation : std::uint8_t { step, linear, cubic };
-inline constexpr unsigned kInterpolations = 3;
-enum class CurveTarget : std::uint8_t { nothing, joint, material, mesh, texture };
-inline constexpr unsigned kCurveTargets = 5;
-enum class Filter : std::uint8_t {
-    unspecified,
-    nearest,
-    linear,
-    nearest_mipmap_nearest,
-    linear_mipmap_nearest,
-    nearest_mipmap_linear,
-    linear_mipmap_linear
-};
-inline constexpr unsigned kMagFilters = 3;
-inline constexpr unsigned kMinFilters = 7;
-enum class Wrap : std::uint8_t { repeat, clamp_to_edge, mirrored_repeat };
-inline constexpr unsigned kWraps = 3;
-enum class AlphaMode : std::uint8_t { opaque, mask, blend };
-inline constexpr unsigned kAlphaModes = 3;
-enum class MediaType : std::uint8_t { other, png, jpeg, ktx2, webp, avif };
-inline constexpr unsigned kMediaTypes = 6;
-enum class ConstraintModel : std::uint8_t {
-    free,
-    locked,
-    hinge,
-    swing_twist_ellipse,
-    swing_twist_pyramid,
-    euler_box,
-    largest_angle
-};
-inline constexpr unsigned kConstraintModels = 7;
-enum class EulerOrder : std::uint8_t { xyz, xzy, yxz, yzx, zxy, zyx };
-inline constexpr unsigned kEulerOrders = 6;
-enum class ConstraintScope : std::uint8_t { every_pose, ik_only, all_but_ik };
-inline constexpr unsigned kConstraintScopes = 3;
-enum class Solver : std::uint8_t { any, pull, two_bone, ccd, fabrik, aim, least_squares };
-inline constexpr unsigned kSolvers = 7;
+/// The names of an enumeration's values by number, as in text forms and rig files, and as reports show them.
+template <class Values>
+inline constexpr std::array<std::string_view, 0> kValueNames{};
+template <class Values>
+inline constexpr auto kShownNames = kValueNames<Values>;
+
+// The records' enumerations, as in `enum class Topology : std::uint8_t { triangles, lines, points };`, and the number
+// of values of each, as in kTopologies.
+#define BENDY_VALUES(Values, kCount, ...)                         \
+    enum class Values : std::uint8_t { __VA_ARGS__ };             \
+    inline constexpr unsigned kCount = count_names(#__VA_ARGS__); \
+    template <>                                                   \
+    inline constexpr std::array<std::string_view, kCount> kValueNames<Values> = split_names<kCount>(#__VA_ARGS__);
+#define BENDY_SHOWN(Values, ...)                                                                \
+    template <>                                                                                 \
+    inline constexpr auto kShownNames<Values> = std::to_array<std::string_view>({__VA_ARGS__}); \
+    static_assert(kShownNames<Values>.size() == kValueNames<Values>.size());
+#include <bendy/format/records.def>
+inline constexpr unsigned kMagFilters = 3;  ///< values of Filter without mipmaps
 
 /// Bits of ConstraintRecord::flags and ChainRecord::flags.
 inline constexpr std::uint8_t kApproximated = 1;  ///< the source contains more than the record can express, or differs
