@@ -3,6 +3,8 @@
 #include <bendy/format/read_record.h>
 #include <bendy/format/text.h>
 
+#include <cstddef>
+
 namespace bendy {
 
 MaterialView read_material(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t textures, Faults& faults) {
@@ -98,6 +100,11 @@ void check_texture_references(const ChunkTree& tree, std::vector<TextureView>& t
             }
         }
     }
+}
+
+std::string mime_type(MediaType media) {
+    if (media == MediaType::other) return {};
+    return std::string("image/").append(kValueNames<MediaType>[static_cast<std::size_t>(media)]);
 }
 
 void check_material_values(const ChunkTree& tree, const MaterialView& material, Faults& faults) {

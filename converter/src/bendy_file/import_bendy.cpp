@@ -10,6 +10,7 @@
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 #include <bendy/format/file.h>
+#include <bendy/format/material.h>
 #include <bendy/format/records.h>
 
 #include <nlohmann/json.hpp>
@@ -356,12 +357,6 @@ void import_materials(const Document& document, Scene& scene) {
     }
 }
 
-std::string media_type(MediaType media) {
-    constexpr std::array<const char*, kMediaTypes> kNames{"",           "image/png",  "image/jpeg",
-                                                          "image/ktx2", "image/webp", "image/avif"};
-    return kNames[static_cast<std::size_t>(media)];
-}
-
 void import_textures(const ChunkTree& tree, const Document& document, Scene& scene, Report& report) {
     // The image of each IMAG and LINK by texture and place; a SAME may refer to a later texture.
     std::vector<std::vector<std::uint32_t>> image_of(document.textures.size());
@@ -371,7 +366,7 @@ void import_textures(const ChunkTree& tree, const Document& document, Scene& sce
             image_of[number].push_back(static_cast<std::uint32_t>(scene.images.size()));
             if (source.same) continue;
             Image& image = scene.images.emplace_back();
-            image.media_type = media_type(source.media);
+            image.media_type = mime_type(source.media);
             image.bytes.assign(source.bytes.begin(), source.bytes.end());
             image.uri = source.uri;
             if (source.bytes.data() != nullptr && source.bytes.empty()) {

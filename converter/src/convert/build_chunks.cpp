@@ -8,6 +8,7 @@
 #include "space.h"
 
 #include <bendy/format/marker.h>
+#include <bendy/format/material.h>
 #include <bendy/format/packed_clip.h>
 #include <bendy/format/records.h>
 
@@ -25,13 +26,8 @@ namespace {
 // --- textures and materials
 
 MediaType media_of(const Image& image) {
-    constexpr std::pair<std::string_view, MediaType> kKnown[] = {{"image/png", MediaType::png},
-                                                                 {"image/jpeg", MediaType::jpeg},
-                                                                 {"image/ktx2", MediaType::ktx2},
-                                                                 {"image/webp", MediaType::webp},
-                                                                 {"image/avif", MediaType::avif}};
-    for (const auto& [name, media] : kKnown) {
-        if (image.media_type == name) return media;
+    for (unsigned number = 0; number < kMediaTypes; ++number) {
+        if (const auto media = static_cast<MediaType>(number); image.media_type == mime_type(media)) return media;
     }
     return MediaType::other;
 }

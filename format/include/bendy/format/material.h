@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -45,6 +46,8 @@ MaterialView read_material(const ChunkTree& tree, std::uint32_t chunk, std::uint
 TextureView read_texture(const ChunkTree& tree, std::uint32_t chunk, Faults& faults);
 /// Checks every SAME against the textures that it refers to.
 void check_texture_references(const ChunkTree& tree, std::vector<TextureView>& textures, Faults& faults);
+/// Returns "image/png", "image/jpeg", ...; empty for MediaType::other.
+std::string mime_type(MediaType media);
 /// Adds faults of content: numbers that are not finite.
 void check_material_values(const ChunkTree& tree, const MaterialView& material, Faults& faults);
 
