@@ -179,10 +179,10 @@ EulerOrder order_of(std::vector<std::size_t> axes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (std::find(axes.begin(), axes.end(), axis) == axes.end()) axes.push_back(axis);
     }
-    constexpr std::array<std::array<std::size_t, 3>, kEulerOrders> kOrders{
-        {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
-    for (std::size_t i = 0; i < kOrders.size(); ++i) {
-        if (std::equal(axes.begin(), axes.end(), kOrders[i].begin())) return static_cast<EulerOrder>(i);
+    for (unsigned number = 0; number < kEulerOrders; ++number) {
+        const auto order = static_cast<EulerOrder>(number);
+        const std::array<std::size_t, 3> turning = axes_of(order);
+        if (std::equal(axes.begin(), axes.end(), turning.begin())) return order;
     }
     return EulerOrder::xyz;
 }

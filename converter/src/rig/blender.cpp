@@ -3,6 +3,7 @@
 #include "failure.h"
 #include "parse_rig.h"
 
+#include <bendy/format/constraint.h>
 #include <bendy/format/trig.h>
 
 #include <glm/geometric.hpp>
@@ -14,12 +15,6 @@
 #include <optional>
 
 namespace bendy::converter {
-
-std::array<std::size_t, 3> axes_of(EulerOrder order) {
-    constexpr std::array<std::array<std::size_t, 3>, kEulerOrders> kAxes{
-        {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
-    return kAxes[static_cast<std::size_t>(order)];
-}
 
 std::array<double, 3> to_euler(const Rotation& rotation, EulerOrder order) {
     const auto [first, middle, last] = axes_of(order);

@@ -2,11 +2,13 @@
 
 #include "rotation.h"
 
+#include <bendy/format/constraint.h>
 #include <bendy/format/trig.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace bendy {
 namespace {
@@ -397,12 +399,15 @@ struct Order {
     double sign;              ///< 1 if X, Y, Z can be rotated into them, otherwise -1
 };
 Order order_of(EulerOrder order) {
-    constexpr std::array<Order, kEulerOrders> kOrders{{{{0, 1, 2}, 1.0},
-                                                       {{0, 2, 1}, -1.0},
-                                                       {{1, 0, 2}, -1.0},
-                                                       {{1, 2, 0}, 1.0},
-                                                       {{2, 0, 1}, 1.0},
-                                                       {{2, 1, 0}, -1.0}}};
+    constexpr auto kOrders = [] {
+        std::array<Order, kEulerOrders> orders{};
+        for (std::size_t n = 0; n < orders.size(); ++n) {
+            const auto [first, second, third] = axes_of(static_cast<EulerOrder>(n));
+            orders[n] = {{static_cast<int>(first), static_cast<int>(second), static_cast<int>(third)},
+                         (first + 1) % 3 == second ? 1.0 : -1.0};
+        }
+        return orders;
+    }();
     return kOrders[static_cast<std::size_t>(order)];
 }
 

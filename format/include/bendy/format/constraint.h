@@ -4,6 +4,8 @@
 #include <bendy/format/public.h>
 #include <bendy/format/records.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 // LIMT: what a joint may do. Readers and writers check constraints against the same rules.
@@ -29,6 +31,14 @@ void check_constraint(const ConstraintRecord& constraint, std::uint32_t joint, s
 /// Returns true if the rest pose, R = identity and no translation, is inside the limits: angles on the circle, and for
 /// an Euler box in either of its two forms.
 bool holds_rest(const ConstraintRecord& constraint);
+
+/// Returns the axes (0 X, 1 Y, 2 Z) of an Euler box in the order of their rotations.
+constexpr std::array<std::size_t, 3> axes_of(EulerOrder order) {
+    std::array<std::size_t, 3> axes{};
+    for (std::size_t i = 0; i < axes.size(); ++i)
+        axes[i] = static_cast<std::size_t>(kValueNames<EulerOrder>[static_cast<std::size_t>(order)][i] - 'x');
+    return axes;
+}
 
 /// Returns how many components of rotation_min and rotation_max the model uses: 3 (X, Y, Z), 1 (X: hinge, largest
 /// angle) or 0.
