@@ -54,9 +54,13 @@ const Chain& find_chain(const std::filesystem::path& file, const Model& model, c
                    std::to_string(chains.size()) + ": " + known);
 }
 
-/// In the order of Solver.
+/// By number. Solver::any is `chain` here: the solver that the chain names.
 const std::vector<std::string>& solver_names() {
-    static const std::vector<std::string> names{"chain", "pull", "two_bone", "ccd", "fabrik", "aim", "least_squares"};
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all(kValueNames<Solver>.begin(), kValueNames<Solver>.end());
+        all[static_cast<std::size_t>(Solver::any)] = "chain";
+        return all;
+    }();
     return names;
 }
 

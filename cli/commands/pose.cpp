@@ -331,14 +331,13 @@ std::vector<PosedReach> reach_chains(const PoseArguments& arguments, Pose& pose)
 }
 
 std::vector<PosedCurve> sample_curves(const Clip& clip, float seconds) {
-    constexpr std::array kKinds{"", "joint", "material", "mesh", "texture"};
-    static_assert(kKinds.size() == kCurveTargets);
     std::vector<PosedCurve> curves;
     for (const Curve& curve : clip.curves) {
         PosedCurve& posed = curves.emplace_back();
         posed.name = curve.name;
         posed.path = curve.path;
-        posed.target_kind = kKinds.at(static_cast<std::size_t>(curve.kind));
+        if (curve.kind != CurveTarget::nothing)
+            posed.target_kind = kValueNames<CurveTarget>.at(static_cast<std::size_t>(curve.kind));
         posed.target = curve.target;
         posed.value.resize(curve.components);
         (void)sample_curve(curve, seconds, posed.value);  // the time is finite, and there is room

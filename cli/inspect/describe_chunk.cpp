@@ -159,24 +159,20 @@ std::string quoted(std::string_view text) {
 }
 
 std::string stream_text(const ChunkTree& tree, std::uint32_t number) {
-    constexpr std::array<std::string_view, kComponentTypes> kTypes{"u8", "i8", "u16", "i16", "u32", "f32"};
     const auto record = record_at<StreamRecord>(tree, number);
     std::string text = grouped(record.elements) + " x " + std::to_string(record.components) + ' ';
-    text += name_at(kTypes, record.component_type);
-    if (record.normalised == static_cast<std::uint8_t>(Numbers::normalised)) text += " normalised";
-    if (record.normalised == static_cast<std::uint8_t>(Numbers::boxed)) text += " boxed";
-    if (record.normalised == static_cast<std::uint8_t>(Numbers::listed)) text += " listed";
+    text += name_at(kValueNames<ComponentType>, record.component_type);
+    if (record.normalised != static_cast<std::uint8_t>(Numbers::plain) && record.normalised < kNumbers)
+        text.append(" ").append(kValueNames<Numbers>[record.normalised]);
     if (tree[number].id == FourCC("TEXC") || tree[number].id == FourCC("COLR"))
         text += ", set " + std::to_string(record.set);
     return text;
 }
 
-constexpr std::array<std::string_view, kTopologies> kTopologyNames{"triangles", "lines", "points"};
-
 std::string submesh_text(const SubmeshRecord& record) {
     if (record.topology >= kTopologies) return "?";
     std::string text = grouped(record.count / corners(static_cast<Topology>(record.topology))) + ' ';
-    text += kTopologyNames[record.topology];
+    text += kValueNames<Topology>[record.topology];
     text += " of mesh " + std::to_string(record.mesh);
     if (record.material != kNone) {
         const bool is_local = (record.material & kLocalMaterial) != 0;
@@ -216,7 +212,7 @@ std::string joint_text(const ChunkTree& tree, std::uint32_t number, const RigInd
     }
     for (std::size_t topology = 0; topology < kTopologies; ++topology) {
         if (polygons[topology] != 0)
-            add_part(text, grouped(polygons[topology]) + ' ' + std::string(kTopologyNames[topology]));
+            add_part(text, grouped(polygons[topology]) + ' ' + std::string(kValueNames<Topology>[topology]));
     }
     if (const std::string limits = constraints_text(tree, pivot); !limits.empty()) add_part(text, limits);
     if (has_extras) add_part(text, "extras");
@@ -417,7 +413,7 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
     if (chunk.id == FourCC("MATE"))
         return material_text(record_at<SurfaceRecord>(tree, tree.find(number, FourCC("SURF"))));
     if (chunk.id == FourCC("IMAG"))
-        return std::string(name_at(kMediaNames, record_at<ImageRecord>(tree, number).media));
+        return std::string(name_at(kShownNames<MediaType>, record_at<ImageRecord>(tree, number).media));
     const LeafLayout* leaf = find_leaf(chunk.id);
     return leaf == nullptr || chunk.is_container() ? std::string() : leaf_text(*leaf, tree.payload(number));
 }

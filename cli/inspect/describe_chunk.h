@@ -6,15 +6,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace bendy::cli {
-
-/// Of images, by MediaType.
-inline constexpr std::array<std::string_view, kMediaTypes> kMediaNames{"other", "PNG", "JPEG", "KTX2", "WebP", "AVIF"};
 
 /// What is in a chunk, in a few words for the tree: a name, counts, the values that matter. Works on any tree, whatever
 /// its records hold. \param rigs made of the same tree

@@ -49,28 +49,24 @@ std::string ranges_text(const Triple& low, const Triple& high, std::size_t first
 }
 
 std::string rotation_text(const ConstraintRecord& constraint) {
-    constexpr std::array<std::string_view, kEulerOrders> kOrders{"XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"};
     const Triple low = in_degrees(constraint.rotation_min);
     const Triple high = in_degrees(constraint.rotation_max);
     const auto ranges = [&](std::size_t first, std::size_t last) { return ranges_text(low, high, first, last, "deg"); };
+    std::string model(name_at(kShownNames<ConstraintModel>, constraint.model));
     switch (static_cast<ConstraintModel>(constraint.model)) {
-        case ConstraintModel::free:
-            return "free";
-        case ConstraintModel::locked:
-            return "locked";
         case ConstraintModel::hinge:
-            return "hinge " + ranges(0, 1);
+            return model + ' ' + ranges(0, 1);
         case ConstraintModel::swing_twist_ellipse:
-            return "swing-twist ellipse, twist " + ranges(0, 1) + ", swing " + ranges(1, 3);
         case ConstraintModel::swing_twist_pyramid:
-            return "swing-twist pyramid, twist " + ranges(0, 1) + ", swing " + ranges(1, 3);
+            return model + ", twist " + ranges(0, 1) + ", swing " + ranges(1, 3);
         case ConstraintModel::euler_box:
-            return "Euler box " + std::string(name_at(kOrders, constraint.euler_order)) + ' ' + ranges(0, 3);
+            return model + ' ' + std::string(name_at(kShownNames<EulerOrder>, constraint.euler_order)) + ' ' +
+                   ranges(0, 3);
         case ConstraintModel::largest_angle:
-            return high[0] == ConstraintRecord::kFree ? "largest angle free"
-                                                      : "largest angle " + brief(high[0]) + " deg";
+            return model + (high[0] == ConstraintRecord::kFree ? " free" : ' ' + brief(high[0]) + " deg");
+        default:
+            return model;
     }
-    return "?";
 }
 
 std::string translation_text(const ConstraintRecord& constraint) {
@@ -216,15 +212,13 @@ std::string RigIndex::links_text(const Object& object, std::uint32_t chain, cons
 }
 
 std::string RigIndex::chain_text(std::uint32_t chunk) const {
-    constexpr std::array<std::string_view, kSolvers> kNames{"any solver", "pull", "two-bone",     "CCD",
-                                                            "FABRIK",     "aim",  "least squares"};
     const Object* object = object_of(chunk);
     const std::uint32_t info = (*tree_)[chunk].is_container() ? tree_->find(chunk, FourCC("KINF")) : kNone;
     if (object == nullptr || info == kNone || tree_->encoding_fault(info)) return {};
     const auto record = record_at<ChainRecord>(*tree_, info);
     const auto place = std::lower_bound(object->chains.begin(), object->chains.end(), chunk);
     std::string text = links_text(*object, static_cast<std::uint32_t>(place - object->chains.begin()), record);
-    add_part(text, name_at(kNames, record.solver));
+    add_part(text, name_at(kShownNames<Solver>, record.solver));
     if (record.target != kNone) add_part(text, "target " + joint_name(object->skeleton, record.target));
     if (record.pole != kNone) add_part(text, "pole " + joint_name(object->skeleton, record.pole));
     add_number(text, "position", record.position_weight, 1.0f);

@@ -7,6 +7,7 @@
 #include "terminal/messages.h"
 
 #include <bendy/format/diagnostics.h>
+#include <bendy/format/material.h>
 #include <bendy/runtime/transform.h>
 
 #include <algorithm>
@@ -271,19 +272,17 @@ std::string data_uri(std::string_view media_type, Bytes bytes) {
 }
 
 Json image_json(const ImageView& image, std::size_t& budget) {
-    constexpr std::array<std::string_view, kMediaTypes> kShown{"", "image/png",  "image/jpeg",
-                                                               "", "image/webp", "image/avif"};
     if (image.same) return {{"same", image.same->texture}};
     if (image.bytes.empty() && !image.uri.empty()) return {{"uri", brief(image.uri)}};
-    const auto media = static_cast<std::size_t>(image.media);
-    Json json{{"media", name_at(kMediaNames, media)}, {"bytes", image.bytes.size()}};
-    if (name_at(kShown, media).empty() || media >= kMediaTypes) {
+    Json json{{"media", name_at(kShownNames<MediaType>, static_cast<std::size_t>(image.media))},
+              {"bytes", image.bytes.size()}};
+    if (image.media == MediaType::other || image.media == MediaType::ktx2) {
         json["why"] = "browsers do not show this kind";
     } else if (image.bytes.size() > budget) {
         json["why"] = "not embedded: the page holds up to 32 MiB of images";
     } else {
         budget -= image.bytes.size();
-        json["src"] = data_uri(kShown[media], image.bytes);
+        json["src"] = data_uri(mime_type(image.media), image.bytes);
     }
     return json;
 }
@@ -320,7 +319,6 @@ Json page_textures(const Document& document) {
 
 /// The materials: surface parameters, textures, extensions.
 Json page_materials(const Document& document) {
-    constexpr std::array<std::string_view, kAlphaModes> kAlpha{"opaque", "mask", "blend"};
     Json list = Json::array();
     for (const MaterialView& material : document.materials) {
         if (list.size() == kMostListed) break;
@@ -330,7 +328,7 @@ Json page_materials(const Document& document) {
             if (use.record->texture == kNone) continue;
             textures.push_back({use.slot, use.record->texture, use.record->coords});
         }
-        std::string alpha(name_at(kAlpha, surface.alpha_mode));
+        std::string alpha(name_at(kValueNames<AlphaMode>, surface.alpha_mode));
         if (alpha == "mask") alpha += ", cut-off " + brief(surface.alpha_cutoff);
         list.push_back({{"name", brief(material.name)},
                         {"chunk", material.chunk},

@@ -53,8 +53,8 @@ std::vector<Summary::TextureLine> list_textures(const Model& model) {
         line.name = texture.name;
         for (const ImageView& image : texture.images) {
             const auto type = static_cast<std::size_t>(image.media);
-            line.images.push_back({std::string(kMediaNames.at(type < kMediaTypes ? type : 0)), image.bytes.size(),
-                                   std::string(image.uri)});
+            line.images.push_back({std::string(kShownNames<MediaType>.at(type < kMediaTypes ? type : 0)),
+                                   image.bytes.size(), std::string(image.uri)});
         }
     }
     return textures;

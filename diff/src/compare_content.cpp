@@ -1,12 +1,10 @@
 #include "compare_content.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <span>
 #include <string>
-#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -31,10 +29,9 @@ Value number_value(double number, bool is_whole) {
 }
 
 std::string name_of(const TrackView& track) {
-    constexpr std::array<std::string_view, kTrackPaths> kPaths{"translation", "rotation", "scale", "weights"};
     std::string name = track.path == TrackPath::weights ? "track mesh " : "track joint ";
     name += std::to_string(track.target) + ' ';
-    return name.append(kPaths[static_cast<std::size_t>(track.path)]);
+    return name.append(kValueNames<TrackPath>[static_cast<std::size_t>(track.path)]);
 }
 
 using TrackKey = std::tuple<std::uint32_t, TrackPath>;
@@ -210,9 +207,10 @@ void ContentComparer::compare_tracks(ChunkPair clips, const std::string& name, c
     take(std::uint64_t{a.times.size()} + a.values.size() + b.times.size() + b.values.size());
     const bool are_timed = !a.times.empty() && !b.times.empty();
     if (a.interpolation != b.interpolation) {
-        const std::array<std::string, kInterpolations> names{"step", "linear", "cubic"};
-        add_value(clips, name + ": interpolation", Scalar{names[static_cast<std::size_t>(a.interpolation)]},
-                  Scalar{names[static_cast<std::size_t>(b.interpolation)]});
+        const auto word = [](Interpolation interpolation) {
+            return Scalar{std::string(kValueNames<Interpolation>[static_cast<std::size_t>(interpolation)])};
+        };
+        add_value(clips, name + ": interpolation", word(a.interpolation), word(b.interpolation));
     }
     if (a.components != b.components)
         add_value(clips, name + ": components", count_of(a.components), count_of(b.components));

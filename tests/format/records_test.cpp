@@ -2,9 +2,13 @@
 
 #include "edit_file.h"
 
+#include <bendy/format/constraint.h>
+#include <bendy/format/material.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <string>
@@ -170,6 +174,19 @@ TEST(Records, KnowTheSizesOfTheirEnumerations) {
     EXPECT_EQ(corners(Topology::triangles), 3u);
     EXPECT_EQ(corners(Topology::lines), 2u);
     EXPECT_EQ(corners(Topology::points), 1u);
+}
+
+TEST(Records, KnowTheNamesOfTheirEnumerations) {
+    EXPECT_EQ(kSolvers, 7u);
+    EXPECT_EQ(kMinFilters, 7u);
+    EXPECT_EQ(kValueNames<Filter>[kMagFilters - 1], "linear");
+    EXPECT_EQ(kValueNames<Solver>[static_cast<std::size_t>(Solver::any)], "any");
+    EXPECT_EQ(kValueNames<Solver>[static_cast<std::size_t>(Solver::least_squares)], "least_squares");
+    EXPECT_EQ(kShownNames<Solver>[static_cast<std::size_t>(Solver::least_squares)], "least squares");
+    EXPECT_EQ(kShownNames<Interpolation>, kValueNames<Interpolation>);
+    EXPECT_EQ(mime_type(MediaType::jpeg), "image/jpeg");
+    EXPECT_EQ(mime_type(MediaType::other), "");
+    EXPECT_EQ(axes_of(EulerOrder::yzx), (std::array<std::size_t, 3>{1, 2, 0}));
 }
 
 }  // namespace

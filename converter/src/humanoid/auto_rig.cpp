@@ -93,8 +93,6 @@ std::string name_of(const Scene& scene, std::uint32_t joint) {
 /// What was proposed, for people: one line.
 std::string line_of(const Scene& scene, const Chain& chain, const std::optional<ProposedBend>& bend,
                     const Stance& stance) {
-    constexpr std::array<const char*, kSolvers> kNames{"any",    "pull", "two_bone",     "ccd",
-                                                       "fabrik", "aim",  "least_squares"};
     constexpr std::size_t kShown = 12;
     std::vector<bool> is_passive(scene.joints.size());
     for (const Chain::Weight& weight : chain.weights) is_passive[weight.joint] = weight.weight == 0.0f;
@@ -111,7 +109,7 @@ std::string line_of(const Scene& scene, const Chain& chain, const std::optional<
         line += name_of(scene, joints[i]);
     }
     if (chain.record.target != kNone) line += " to " + name_of(scene, chain.record.target);
-    line += std::string(", ") + kNames.at(chain.record.solver);
+    line.append(", ").append(kValueNames<Solver>.at(chain.record.solver));
     if (!bend) return line;
     const bool is_arm = chain.name.find("Arm") != std::string::npos;
     line += std::string(is_arm ? ", elbow" : ", knee") + " points " + way_of(bend->way, stance);

@@ -16,6 +16,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -68,11 +69,11 @@ std::vector<float> parse_numbers(const OrderedJson& value, const std::string& pl
 
 void parse_target(const OrderedJson& value, const std::string& place, RigCurve& curve) {
     Fields fields(value, place, AngleUnit::radians);
-    for (std::size_t kind = 1; kind < kCurveTargetNames.size(); ++kind) {
-        if (fields.find(kCurveTargetNames[kind]) == nullptr) continue;
+    for (std::size_t kind = 1; kind < kValueNames<CurveTarget>.size(); ++kind) {
+        if (fields.find(kValueNames<CurveTarget>[kind]) == nullptr) continue;
         if (curve.curve.kind != CurveTarget::nothing) fail(place, "expected one target, found two");
         curve.curve.kind = static_cast<CurveTarget>(kind);
-        fields.read(kCurveTargetNames[kind], curve.target);
+        fields.read(kValueNames<CurveTarget>[kind], curve.target);
     }
     fields.refuse_others();
     if (curve.curve.kind == CurveTarget::nothing)
@@ -96,7 +97,7 @@ void check_path(Curve& curve, bool has_path, const std::string& place) {
     }
     const std::string path_place = place + ".path";
     if (curve.kind == CurveTarget::joint) {
-        constexpr std::array<std::string_view, 4> kTracks{"translation", "rotation", "scale", "weights"};
+        constexpr std::span<const std::string_view> kTracks = kValueNames<TrackPath>;
         if (std::find(kTracks.begin(), kTracks.end(), curve.path) != kTracks.end())
             fail(path_place, "a joint's " + curve.path + " is animated by a track, not by a curve");
     }
@@ -136,7 +137,7 @@ RigCurve parse_curve(const OrderedJson& value, const std::string& place) {
     if (const OrderedJson* target = fields.find("target"); target != nullptr)
         parse_target(*target, place + ".target", parsed);
     auto interpolation = static_cast<std::uint8_t>(Interpolation::linear);
-    fields.read_word("interpolation", kInterpolationNames, interpolation);
+    fields.read_word("interpolation", kValueNames<Interpolation>, interpolation);
     curve.interpolation = static_cast<Interpolation>(interpolation);
     curve.times = parse_numbers(fields.need("times"), place + ".times");
     curve.values = parse_numbers(fields.need("values"), place + ".values");
@@ -231,7 +232,7 @@ private:
             default:
                 return curve;
         }
-        const std::string kind(kCurveTargetNames[static_cast<std::size_t>(curve.kind)]);
+        const std::string kind(kValueNames<CurveTarget>[static_cast<std::size_t>(curve.kind)]);
         if (curve.target == kNone)
             fail(entry.place + ".target." + kind, "there is no " + kind + ' ' + quote(entry.target));
         return curve;

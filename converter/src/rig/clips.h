@@ -6,9 +6,7 @@
 #include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>
 
-#include <array>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace bendy::converter {
@@ -47,12 +45,6 @@ void take_markers_from_extras(Clip& clip, const std::string& place, Report& repo
 /// markers leaves no others. An entry that no clip takes is named in `report`. Fails at the JSON path of a marker
 /// outside its clip, and of a second entry for one clip.
 void attach_markers(Scene& scene, const Rig& rig, Report& report);
-
-/// In the order of Interpolation.
-inline constexpr std::array<std::string_view, 3> kInterpolationNames{"step", "linear", "cubic"};
-
-/// The keys of a curve's `target`, in the order of CurveTarget.
-inline constexpr std::array<std::string_view, 5> kCurveTargetNames{"", "joint", "material", "mesh", "texture"};
 
 /// A curve of a rig file.
 struct RigCurve {

@@ -25,14 +25,8 @@ constexpr double to_radians(double degrees) {
     return degrees * kRadiansPerDegree;
 }
 
-// The words of rig files for the records' enumerations, in the enumerations' order.
-
-inline constexpr std::array<std::string_view, kConstraintModels> kModelNames{
-    "free", "locked", "hinge", "swing_twist_ellipse", "swing_twist_pyramid", "euler_box", "largest_angle"};
-inline constexpr std::array<std::string_view, kEulerOrders> kOrderNames{"XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX"};
-inline constexpr std::array<std::string_view, kConstraintScopes> kScopeNames{"every_pose", "ik_only", "all_but_ik"};
-inline constexpr std::array<std::string_view, kSolvers> kSolverNames{"any",    "pull", "two_bone",     "ccd",
-                                                                     "fabrik", "aim",  "least_squares"};
+// Of the words of rig files for the records' enumerations, only these are not kValueNames.
+inline constexpr std::span<const std::string_view> kOrderNames = kShownNames<EulerOrder>;
 inline constexpr std::array<const char*, 3> kAxisNames{"x", "y", "z"};
 
 /// The members of a JSON object, read one by one with their checks. Every reader fails at the member's path, and leaves

@@ -16,7 +16,7 @@ namespace {
 void refuse(Fields& fields, std::string_view key, ConstraintModel model) {
     if (fields.find(key) == nullptr) return;
     fail(fields.place_of(key),
-         "it means nothing for model " + std::string(kModelNames[static_cast<std::size_t>(model)]));
+         "it means nothing for model " + std::string(kValueNames<ConstraintModel>[static_cast<std::size_t>(model)]));
 }
 
 void read_rotation_limits(Fields& fields, ConstraintModel model, ConstraintRecord& constraint) {
@@ -73,14 +73,14 @@ ConstraintRecord parse_constraint(const OrderedJson& value, const std::string& p
     Fields fields(value, place, unit);
     ConstraintRecord constraint;
     fields.need("model");
-    fields.read_word("model", kModelNames, constraint.model);
+    fields.read_word("model", kValueNames<ConstraintModel>, constraint.model);
     const auto model = static_cast<ConstraintModel>(constraint.model);
     if (model == ConstraintModel::euler_box) {
         fields.read_word("order", kOrderNames, constraint.euler_order);
     } else {
         refuse(fields, "order", model);
     }
-    fields.read_word("scope", kScopeNames, constraint.scope);
+    fields.read_word("scope", kValueNames<ConstraintScope>, constraint.scope);
     fields.read_rotation("frame", constraint.frame);
     read_rotation_limits(fields, model, constraint);
     read_translation(fields, unit, constraint);
@@ -102,8 +102,10 @@ std::vector<ConstraintRecord> parse_constraints(const OrderedJson& value, const 
     std::bitset<kConstraintScopes> taken;
     for (std::size_t i = 0; i < value.size(); ++i) {
         const ConstraintRecord constraint = parse_constraint(value[i], at(place, i), unit);
-        if (taken[constraint.scope])
-            fail(at(place, i), "there is a second constraint of scope " + std::string(kScopeNames[constraint.scope]));
+        if (taken[constraint.scope]) {
+            fail(at(place, i), "there is a second constraint of scope " +
+                                   std::string(kValueNames<ConstraintScope>[constraint.scope]));
+        }
         taken.set(constraint.scope);
         constraints.push_back(constraint);
     }
@@ -141,7 +143,7 @@ RigChain parse_chain(const OrderedJson& value, const std::string& place, AngleUn
     read_needed(fields, "effector", chain.effector);
     fields.read("target", chain.target);
     fields.read("pole", chain.pole);
-    fields.read_word("solver", kSolverNames, record.solver);
+    fields.read_word("solver", kValueNames<Solver>, record.solver);
     std::uint64_t number = 0;
     fields.read_integer("iterations", 65535, number);
     record.iterations = static_cast<std::uint16_t>(number);

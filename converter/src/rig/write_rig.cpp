@@ -121,9 +121,9 @@ std::string write_constraint(const ConstraintRecord& constraint) {
     const ConstraintRecord usual;
     const auto model = static_cast<ConstraintModel>(constraint.model);
     Line line;
-    line.add("model", json_string(kModelNames[constraint.model]));
+    line.add("model", json_string(kValueNames<ConstraintModel>[constraint.model]));
     if (model == ConstraintModel::euler_box) line.add_word("order", kOrderNames, constraint.euler_order);
-    line.add_word("scope", kScopeNames, constraint.scope);
+    line.add_word("scope", kValueNames<ConstraintScope>, constraint.scope);
     line.add_list("frame", constraint.frame, usual.frame, plain);
     if (model == ConstraintModel::largest_angle) {
         line.add_angle("angle", constraint.rotation_max[0], usual.rotation_max[0]);
@@ -255,12 +255,13 @@ private:
         if (curve.kind != CurveTarget::nothing) {
             const bool is_joint = curve.kind == CurveTarget::joint;
             Line target;
-            target.add(kCurveTargetNames[static_cast<std::size_t>(curve.kind)],
+            target.add(kValueNames<CurveTarget>[static_cast<std::size_t>(curve.kind)],
                        json_string(is_joint ? name_of(curve.target) : '#' + std::to_string(curve.target)));
             line.add("target", target.text());
         }
         if (curve.interpolation != Interpolation::linear) {
-            line.add("interpolation", json_string(kInterpolationNames[static_cast<std::size_t>(curve.interpolation)]));
+            line.add("interpolation",
+                     json_string(kValueNames<Interpolation>[static_cast<std::size_t>(curve.interpolation)]));
         }
         std::vector<float> values;
         values.reserve(curve.value_count());
@@ -280,7 +281,7 @@ private:
         line.add("effector", json_string(name_of(record.effector)));
         if (record.target != kNone) line.add("target", json_string(name_of(record.target)));
         if (record.pole != kNone) line.add("pole", json_string(name_of(record.pole)));
-        line.add_word("solver", kSolverNames, record.solver);
+        line.add_word("solver", kValueNames<Solver>, record.solver);
         line.add_count("iterations", record.iterations);
         line.add_count("priority", record.priority);
         line.add_number("tolerance", record.tolerance);

@@ -14,9 +14,9 @@ inline constexpr float kMost = std::numeric_limits<float>::max();  ///< in range
 
 template <class Visitor>
 void visit_constraint(Visitor& visitor, ConstraintRecord& record) {
-    visitor.word("model", kModelNames, record.model);
+    visitor.word("model", kValueNames<ConstraintModel>, record.model);
     visitor.word("order", kOrderNames, record.euler_order);
-    visitor.word("scope", kScopeNames, record.scope);
+    visitor.word("scope", kValueNames<ConstraintScope>, record.scope);
     visitor.integer("flags", record.flags, kConstraintFlags - 1);
     visitor.number("softZone", record.soft_zone, 0.0f, kMost);
     visitor.numbers("frame", record.frame, -kMost, kMost);
@@ -36,7 +36,7 @@ void visit_chain(Visitor& visitor, IkChain& chain) {
     visitor.frame("effector", chain.effector);
     visitor.frame("target", chain.target);
     visitor.frame("pole", chain.pole);
-    visitor.word("solver", kSolverNames, record.solver);
+    visitor.word("solver", kValueNames<Solver>, record.solver);
     visitor.integer("flags", record.flags, kChainFlags - 1);
     visitor.integer("iterations", record.iterations, std::numeric_limits<std::uint16_t>::max());
     visitor.integer("priority", record.priority, std::numeric_limits<std::uint8_t>::max());

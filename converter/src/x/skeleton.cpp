@@ -71,8 +71,8 @@ void add_constraint(const Constraint& constraint, std::vector<RigEntry>& entries
         return other.scope == constraint.record.scope;
     });
     if (has_one) {
-        fail(constraint.place,
-             "there is a second constraint of scope " + std::string(kScopeNames[constraint.record.scope]));
+        fail(constraint.place, "there is a second constraint of scope " +
+                                   std::string(kValueNames<ConstraintScope>[constraint.record.scope]));
     }
     constraints.push_back(constraint.record);
 }
