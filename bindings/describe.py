@@ -178,7 +178,7 @@ def read(path):
              re.findall(r"#define (BENDY_\w+)_INIT\b((?:[^\n]*\\\n)*[^\n]*\n)", text)}
     text = re.sub(r"^#(.*\\\n)*.*\n", "", text, flags=re.MULTILINE)
 
-    doc, group = "", False  # of what follows; whether it goes on for several functions
+    doc = ""  # of what follows, until a blank line
     token = re.compile(r"(/\*.*?\*/)|typedef enum \w+ \{(.*?)\} (\w+);|typedef struct \w+ \{(.*?)\} (\w+);|typedef struct \w+ (\w+);"
                        r"|typedef void \(\*(\w+)\)\((.*?)\);|BENDY_API ([\w ]+?\*?) ?(\w+)\(((?:[^;/]|/\*.*?\*/)*?)\);([ \t]*/\*[^\n]*?\*/)?|(\n[ \t]*\n)", re.DOTALL)
     for found in token.finditer(text):

@@ -125,7 +125,7 @@ class Call:
 
     @property
     def out(self):
-        """(type, name, value on failure) of a result that is no status."""
+        """(type, name, value on failure) of the result; None if it is a status."""
         result = self.function.result
         if result.name == "bendy_status":
             return None

@@ -59,7 +59,7 @@ class Maker:
         for handle in api.handles:
             if handle not in self.frees:
                 raise SystemExit(f"nothing frees a {handle}")
-        # What calls fill as an error is no struct for callers.
+        # Callers never see bendy_error: errors are exceptions.
         self.structs = {name: struct for name, struct in api.structs.items() if name != "bendy_error"}
 
     def is_rows(self, name):

@@ -18,7 +18,7 @@
 // How structs of bendy.h are checked, and become C++ structs and back, field by field.
 namespace bendy::capi {
 
-/// Of a struct of bendy.h: see fields.h.
+/// How to check and copy a struct of bendy.h; fields.h specialises it.
 template <class Struct>
 struct Fields;
 

@@ -16,7 +16,7 @@
 namespace bendy::capi {
 namespace {
 
-/// What bendy_skin is to do, but for its outputs.
+/// Converts the options of bendy_skin; the caller sets the outputs.
 bendy_status take_options(const bendy_pose& pose, const bendy_skin_options& options, SkinRequest& taken,
                           bendy_error* error) {
     if (options.mesh != BENDY_NONE) {

@@ -29,7 +29,7 @@ struct ConvertOption {
     [[nodiscard]] std::string flag() const;
     /// With kByKey in it.
     [[nodiscard]] std::string full_help() const;
-    /// What is wrong with a value of a word: `images must be embed or link`; empty if nothing is.
+    /// Returns why the value is not one of the option's words, `images must be embed or link`; empty if it is.
     [[nodiscard]] std::string why_not(std::string_view value) const;
 };
 

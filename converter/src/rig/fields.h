@@ -25,7 +25,7 @@ constexpr double to_radians(double degrees) {
     return degrees * kRadiansPerDegree;
 }
 
-// Of the words of rig files for the records' enumerations, only these are not kValueNames.
+// Rig files use kValueNames for the records' enumerations, except for these.
 inline constexpr std::span<const std::string_view> kOrderNames = kShownNames<EulerOrder>;
 inline constexpr std::array<const char*, 3> kAxisNames{"x", "y", "z"};
 
