@@ -2,7 +2,9 @@
 
 #include "source/source_file.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bendy::converter::x {
 namespace {
@@ -76,7 +78,8 @@ float to_light(float display) {
     if (!(display > 0.04045f) || !std::isfinite(display)) return display < 0.0f ? display : display / 12.92f;
     const double base = (static_cast<double>(display) + 0.055) / 1.055;
     const double square = base * base;
-    return static_cast<float>(square * root(square, 5));  // to the power of 2.4
+    const double light = square * root(square, 5);  // to the power of 2.4
+    return static_cast<float>(std::min(light, double{std::numeric_limits<float>::max()}));
 }
 
 float to_display(float light) {

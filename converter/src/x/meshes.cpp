@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -33,6 +34,10 @@ public:
         material.metallic = 0.0f;
         material.roughness = roughness_of(source.power);
         material.emissive = to_light(source.emissive);
+        for (const glm::vec3& light : {glm::vec3(material.base_colour), material.emissive}) {
+            if (std::max({light.x, light.y, light.z}) == std::numeric_limits<float>::max())
+                report_.warn("a colour of a material is too large, the largest number is taken", source.place);
+        }
         if (source.colour.w < 1.0f) material.alpha_mode = AlphaMode::blend;
         if (source.specular != glm::vec3(0.0f) && source.specular != glm::vec3(to_display(kDielectric)))
             report_.warn("specular colour of a material left out, its power is kept as roughness", source.place);

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -130,6 +131,16 @@ Frame Root { Frame Tip { } })");
     EXPECT_EQ(mesh.influences, 2u);
     EXPECT_EQ(mesh.bones, (std::vector<std::uint32_t>{1, 0, 1, 0, 0, 0, 0, 1}));
     EXPECT_EQ(mesh.weights, (std::vector<float>{1, 0, 1, 0, 1, 0, 0.25f, 0.75f}));
+}
+
+TEST(ImportX, ColoursStayFinite) {
+    const Read file =
+        read_good(kHeader + R"(Material Bright { 2e38;1;-3e38;1;; 0; 0;0;0;; 3.4e38;0;0;; })" + kSquare + R"(
+ MeshMaterialList { 1; 1; 0; { Bright } } })");
+    const Material& bright = file.scene.materials.at(0);
+    EXPECT_EQ(bright.base_colour, glm::vec4(std::numeric_limits<float>::max(), 1, -3e38f, 1));
+    EXPECT_EQ(bright.emissive.x, std::numeric_limits<float>::max());
+    EXPECT_EQ(file.report.warnings().at(0).message, "a colour of a material is too large, the largest number is taken");
 }
 
 TEST(ImportX, MaterialsByReferenceAndInPlace) {
