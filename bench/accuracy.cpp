@@ -1,7 +1,7 @@
 // bench_accuracy FILE...: the largest distance of posed vertices from the converter's evaluation of the same file,
 // which uses doubles and shares no code with the runtime. It is measured with every kernel of this machine, over all
 // vertices, at rest and at 41 times of every clip, in millionths of the extent (the bounding box's diagonal at rest).
-#include "evaluate.h"
+#include "scene/evaluate.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import.h>

@@ -11,7 +11,7 @@
 //                  axis within 20 degrees of that in one of their frames, or bent by less than 10 degrees. If neither
 //                  the clips nor the rest pose bend the limb by 10 degrees, reaching the target is enough
 // With --expect it fails unless these are 100, 99 and 99 %.
-#include "humanoid/auto_rig.h"
+#include "rigging/humanoid/auto_rig.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import.h>

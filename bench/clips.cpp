@@ -1,8 +1,8 @@
 // bendy_bench_clips FILE... [--benchmark_...]: the cost of decoding packed clips, in nanoseconds per joint of the
 // skeleton, including the copy of the rest pose; at times in order, at random times, and at random times in so many
 // copies that none is in the cache.
-#include "compact/pack_clips.h"
-#include "plan/joint_blocks.h"
+#include "optimise/compact/pack_clips.h"
+#include "plan/layout.h"
 #include "plan/unpack_plan.h"
 #include "play/unpack.h"
 

@@ -1,6 +1,6 @@
 // bendy_bench_compact_clips [--shell] [--error MM] [--peers PEERS.tsv] [--unit METRES] FILE...: the sizes of packed
 // clips, compared with those of other programs. --unit gives the length of one unit in the files that follow it.
-#include "compact/pack_clips.h"
+#include "optimise/compact/pack_clips.h"
 
 #include <bendy/converter/import.h>
 #include <bendy/format/packed_clip.h>

@@ -2,7 +2,7 @@
 // simplifier at the same triangle counts. It is the two-sided Hausdorff distance, sampled at every vertex and at 20,000
 // points spread by area on either surface, at rest and in three poses of the clips.
 
-#include "collapse/distances.h"
+#include "optimise/collapse/distances.h"
 
 #include <bendy/converter/convert.h>
 #include <bendy/format/diagnostics.h>

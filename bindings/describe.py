@@ -1,14 +1,14 @@
 """Reads bendy.h, the one description of everything that can be called across languages: its enumerations, structs, handles and
 functions, with their comments. The generators of the C layer, of Python and of JavaScript are made from what this returns.
 
-What the header says in a form that programs read, too:
+Some of the header's forms are machine-readable:
   float position[3]         an array of so many numbers; finite, if the function reads them
   uint32_t mesh             the name of a part of a model, without more: an index of one (see PARTS)
   TYPE* name   with "/* or NULL */" behind it: it may be NULL, otherwise that is an error
   float* positions          an array of `count` elements of the function, with "N each" in its comment: N numbers for each
   uint32_t field            with a comment that begins "a bendy_NAME": a value of that enumeration
   uint32_t field            with a comment that begins "0 or 1", "1:" or "0: ... 1: ...": a flag
-  uint32_t has_X            beside X: whether X is given; other languages have an X that may be absent
+    uint32_t has_X            beside X: whether X is given; in other languages X may be absent
   uint32_t field            with "elsewhere: not NAME" in its comment: other languages have the flag NAME instead, the other way round
   float field               with a comment that begins "0 to 1": nothing below or above
   uint32_t field            with BENDY_NONE in its comment: an index that may be none
@@ -34,7 +34,7 @@ class Type:
 
 @dataclass
 class Field:
-    """Of a struct, or a parameter of a function. count: elements of an array, 0 for a single value."""
+    """A field of a struct, or a parameter of a function. count: elements of an array, 0 for a single value."""
     name: str
     type: Type
     count: int = 0
@@ -92,7 +92,7 @@ class Struct:
 
     @property
     def presence(self):
-        """The index that is BENDY_NONE where another struct has one that is not used, or None."""
+        """The index that is BENDY_NONE if the struct, as a field of another one, is not used; or None."""
         return self.fields[0] if self.fields[0].doc.startswith("or BENDY_NONE: not used") else None
 
 
@@ -109,7 +109,7 @@ class Enum:
 
     @property
     def words(self):
-        """Its values as other languages have them: the names without what they begin with."""
+        """Its values in other languages: the names without their common prefix."""
         prefix = commonprefix([name for name, _, _ in self.values])
         return [name[prefix.rindex("_") + 1:].lower() for name, _, _ in self.values]
 
@@ -140,7 +140,7 @@ class Api:
 
 
 def words_of(comment):
-    """The text of a comment in one line."""
+    """The text of a comment as one line."""
     return " ".join(re.sub(r"^\s*/?\*+/?|\*/$", " ", comment.strip(), flags=re.MULTILINE).split())
 
 
@@ -153,7 +153,8 @@ def declaration(text):
 
 
 def items(body, end):
-    """(text, comment) of what is separated by `end` in the body of a struct or enumeration: a comment belongs to what it follows."""
+    """(text, comment) of the parts separated by `end` in the body of a struct or enumeration: a comment belongs to the part
+    before it."""
     pieces = re.findall(r"(/\*.*?\*/)|([^/%s]+)|(%s)" % (end, end), body, re.DOTALL)
     made = []
     is_open = False
@@ -178,7 +179,7 @@ def read(path):
              re.findall(r"#define (BENDY_\w+)_INIT\b((?:[^\n]*\\\n)*[^\n]*\n)", text)}
     text = re.sub(r"^#(.*\\\n)*.*\n", "", text, flags=re.MULTILINE)
 
-    doc = ""  # of what follows, until a blank line
+    doc = ""  # of the next declaration, until a blank line
     token = re.compile(r"(/\*.*?\*/)|typedef enum \w+ \{(.*?)\} (\w+);|typedef struct \w+ \{(.*?)\} (\w+);|typedef struct \w+ (\w+);"
                        r"|typedef void \(\*(\w+)\)\((.*?)\);|BENDY_API ([\w ]+?\*?) ?(\w+)\(((?:[^;/]|/\*.*?\*/)*?)\);([ \t]*/\*[^\n]*?\*/)?|(\n[ \t]*\n)", re.DOTALL)
     for found in token.finditer(text):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the outer layer of the C API from bendy.h: make_c.py BENDY_H FOLDER [--check]
 
-calls.h     the functions that the sources of capi/ define: each has its arguments checked already, and structs with defaults filled in
+calls.h     the functions that the sources of c/ define: each has its arguments checked already, and structs with defaults filled in
 calls.cpp   the functions of bendy.h that can fail: they check their arguments, the same way everywhere, and call those of calls.h;
             and those that free a handle or count parts
 fields.h    for each struct that crosses the boundary, how its fields are checked, and how they are copied: to a C++ struct that has all
@@ -17,10 +17,10 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent))
 import describe  # noqa: E402
 
-# A parameter with one of these names is the index of a part: of the model, or of the clip, mesh or texture before it.
+# A parameter with one of these names is the index of a part: of the model, or of the preceding clip, mesh or texture.
 PARTS = dict.fromkeys(("joint", "clip", "chain", "morph_target", "mesh", "submesh", "joint_submesh", "material", "texture", "constraint"))
 PARTS.update(track="clip", marker="clip", curve="clip", frame_sequence="clip", stream="mesh", image="texture")
-# Handles that belong to no model.
+# Handles that do not belong to a model.
 WITHOUT_MODEL = ("bendy_playback", "bendy_fade")
 HEAD = "// Made from bendy.h by bindings/make_c.py.\n"
 
@@ -34,14 +34,14 @@ def is_unit_quaternion(one):
 
 
 class Call:
-    """A function that can fail: its checks, and the call behind them."""
+    """A function that can fail: its checks, and the call that follows them."""
 
     def __init__(self, api, function):
         self.api, self.function = api, function
         self.parameters = function.parameters[:-1]
         self.checks, self.arguments, self.taken, self.puts = [], [], [], []
-        self.subject = None  # the handle that others must be of one model with
-        self.owner = None  # the handle before, whose parts are named
+        self.subject = None  # the handle that others must share a model with
+        self.owner = None  # the preceding handle whose parts are named
         for k, one in enumerate(self.parameters):
             following = self.parameters[k + 1:k + 2]
             is_counted = any(later.name == "count" and not later.type.is_pointer for later in following)
@@ -162,7 +162,7 @@ class Call:
 
 
 def plain_definition(function):
-    """Of a function that cannot fail and says by its form what it does: one that frees a handle, or that counts parts."""
+    """The definition of a function that cannot fail and whose form tells what it does: it frees a handle, or counts parts."""
     names = [one.name for one in function.parameters]
     listed = ", ".join(f"{one.type} {one.name}" for one in function.parameters)
     if function.result is None and len(names) == 1:
@@ -248,7 +248,7 @@ def crossing(api, is_const):
 def make(api):
     calls = [Call(api, function) for function in api.functions.values() if function.can_fail]
     made = {"calls.h": HEAD + '#pragma once\n#include "handles.h"\n#include <bendy.h>\n#include <cstddef>\n#include <cstdint>\n'
-            "// What the functions of bendy.h do once their arguments are checked. A struct is as large as this library's, and fields that the\n"
+            "// The functions of bendy.h after their arguments are checked. A struct has the size that this library gives it, and fields that the\n"
             "// program does not know have their defaults.\nnamespace bendy::capi {\n"
             + "\n".join(call.inner_declaration() for call in calls) + "\n}\n",
             "calls.cpp": HEAD + '#include "calls.h"\n#include "fail.h"\n#include "fields.h"\n#include "lookup.h"\n#include <bendy.h>\n'

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes from bendy.h what Python has of it.
 
-make_python.py BENDY_H made SOURCE.cpp STUB.pyi    the module bendy._bendy.c, over python/src/c_layer.h, and its types
+make_python.py BENDY_H made SOURCE.cpp STUB.pyi    the module bendy._bendy.c, over bindings/python/src/c_layer.h, and its types
 make_python.py BENDY_H expand FROM.py TO.py        a file of the package: **options: "bendy_NAME" in a signature, its docstring and
                                                    the call below become the options, with their defaults, in the order of the struct
 
@@ -46,7 +46,7 @@ def quoted(text):
 
 
 def in_python(doc):
-    """A comment with the names that Python has."""
+    """A comment with Python's names."""
     doc = re.sub(r"\bbendy_(\w+)", lambda found: found[1], doc)
     return re.sub(r"\b(?:BENDY_NONE|NULL)\b", "None", doc)
 
@@ -63,7 +63,7 @@ class Maker:
         self.structs = {name: struct for name, struct in api.structs.items() if name != "bendy_error"}
 
     def is_rows(self, name):
-        """Whether a struct consists of floats alone, so that an array of them has a row for each."""
+        """Whether a struct consists of floats only, so that an array of them has one row each."""
         return name in self.structs and all(one.type.name == "float" and not one.type.is_pointer for one in self.structs[name].fields)
 
     def width(self, parameter):
@@ -76,7 +76,7 @@ class Maker:
     # Structs.
 
     def fields(self, struct):
-        """(name in Python, field, name of its has_X): those that callers see."""
+        """(name in Python, field, name of its has_X) of the fields that callers see."""
         names = {one.name for one in struct.fields}
         for one in struct.fields:
             if one.name in ("size", "reserved") or (one.name.startswith("has_") and one.name[4:] in names):
@@ -170,7 +170,7 @@ class Maker:
     # Functions.
 
     def plan(self, function):
-        """What becomes of each parameter: a list of (role, parameter)."""
+        """A list of (role, parameter): how each parameter appears in Python."""
         listed = [one for one in function.parameters if one.type.name != "bendy_error"]
         values = {one.name for one in listed if not one.type.is_pointer and not one.count}
         counted = next((name for name in ("count", "capacity") if name in values), None)
@@ -201,7 +201,7 @@ class Maker:
         return roles
 
     def parameters(self, roles):
-        """(parameter of Python, its type, whether it may be left out), in their order there."""
+        """(parameter of Python, its type, whether it may be omitted), in Python's order."""
         listed = []
         for role, one in roles:
             if role in ("room", "size", "scalar", "fixed out") or role.endswith(" out") and role.startswith("struct"):

@@ -48,7 +48,7 @@ def calls(structs, functions):
              "export class Calls {", "  readonly #runtime: Runtime;", "", "  constructor(runtime: Runtime) {",
              "    this.#runtime = runtime;", "  }"]
     for function in functions:
-        if function.result:  # what frees an object is called with its address
+        if function.result:  # a function that frees an object is called with its address
             lines += ["", *Call(structs, function).lines()]
     return lines + ["}"]
 
@@ -73,7 +73,7 @@ def main():
     exports = ["_malloc", "_free", *(f"_{function.name}" for function in functions)]
     for name, lines in (("bindings.ts", bindings), ("exports.txt", exports), ("layout.c", checks(structs.layouts))):
         text = "\n".join(lines) + "\n"
-        if not (folder / name).exists() or (folder / name).read_text(encoding="utf-8") != text:  # what is the same needs no linking
+        if not (folder / name).exists() or (folder / name).read_text(encoding="utf-8") != text:  # an unchanged file causes no linking
             (folder / name).write_text(text, encoding="utf-8")
 
 

@@ -4,7 +4,7 @@ import re
 
 from web_structs import NUMBERS, camel, is_text, pascal, short
 
-SCRATCH = 512  # bytes that a call may take of Runtime.scratch
+SCRATCH = 512  # bytes of Runtime.scratch that a call may use
 ARRAYS = {"float": ("Float32Array<ArrayBuffer>", "Floats"), "double": ("Float64Array<ArrayBuffer>", "Doubles"),
           "uint32_t": ("Uint32Array<ArrayBuffer>", "Integers")}
 
@@ -24,7 +24,7 @@ class Call:
         self.prepared = []  # statements before the call
         self.borrowed = []  # (name, size in bytes) of memory during the call
         self.texts = []     # names of those that are in memory during the call
-        self.used = 0       # bytes of Runtime.scratch
+        self.used = 0       # bytes of Runtime.scratch in use
         self.listed = None  # the name of the list whose length is `count`
         parameters = [one for one in function.parameters if one.type.name != "bendy_error"]
         self.has_count = any(map(is_count, parameters))
@@ -73,7 +73,7 @@ class Call:
             self.address(name)
 
     def address(self, name):
-        """Of memory that the caller has."""
+        """Adds memory that the caller has."""
         self.given.append((name, "number", False))
         self.passed.append(name)
 
@@ -107,7 +107,7 @@ class Call:
         self.results.append((name, kind, f"runtime.copy{numbers}({at}, {one.count})"))
 
     def give_list(self, name, one):
-        """`count` numbers, or so many times as many as its comment says."""
+        """`count` numbers, or a multiple of `count` if the comment says so."""
         kind, numbers = ARRAYS[one.type.name]
         each = re.search(r"\b(\d+) each\b", one.doc)
         count = f"{each[1]} * count" if each else "count"
@@ -125,7 +125,7 @@ class Call:
         self.results.append((name, kind, f"read{kind}(runtime, {at})"))
 
     def take_objects(self, name, struct):
-        """A list: its structs one after another, and then what they point to."""
+        """A list: its structs one after another, followed by what they point to."""
         size, beyond = self.structs.layouts[struct.name].size, self.structs.beyond(struct)
         self.given.append((name, f"readonly {self.structs.given_type(struct)}[]", False))
         self.borrow(name, f"{size + beyond} * {name}.length")
@@ -135,7 +135,7 @@ class Call:
         self.listed = name
 
     def give_objects(self, name, struct):
-        """One for each of the list that is taken."""
+        """One for each item of the list."""
         kind, at = pascal(struct.name), f"{name}At + {self.structs.layouts[struct.name].size} * i"
         self.borrow(name, f"{self.structs.layouts[struct.name].size} * {self.listed}.length")
         self.prepared.append(f"{self.listed}.forEach((_, i) => runtime.struct({camel(short(struct.name))}Layout, {at}));")
@@ -144,7 +144,7 @@ class Call:
     # ---- The method
 
     def statements(self):
-        """What it does, and the type that it returns."""
+        """The method's body, and the type that it returns."""
         function, result = self.function, self.function.result
         call = f"runtime.functions.{function.name}({', '.join(self.passed)})"
         if result.name == "bendy_status" and len(self.results) > 1:
@@ -178,7 +178,7 @@ class Call:
                 at = f"{name} + {size}"
             size = " + ".join(size for _, size in self.borrowed)
             lines = [f"return runtime.borrow({size}, (memory) => {{", *(f"  {line}" for line in places + lines), "});"]
-        last = len(self.given)  # what is last and may be absent needs not be passed
+        last = len(self.given)  # trailing arguments that may be absent need not be passed
         while last and self.given[last - 1][2]:
             last -= 1
         listed = ", ".join(f"{name}{'?' if i >= last else ''}: {one}{' | null | undefined' if may_be_absent else ''}"

@@ -1,4 +1,4 @@
-"""Makes objects of TypeScript of the structs of bendy.h: their interfaces with documentation, and what reads and writes them."""
+"""Makes TypeScript objects from the structs of bendy.h: their interfaces with documentation, and the code that reads and writes them."""
 
 import re
 
@@ -33,7 +33,7 @@ def comment(text, indent=""):
 
 
 class Layout:
-    """Where the fields of a struct are."""
+    """The offsets of a struct's fields."""
 
     def __init__(self, struct, layouts):
         self.places, self.size, self.alignment = {}, 0, 1
@@ -54,7 +54,7 @@ class Layout:
 
 
 class Structs:
-    """read: the names of those that a function fills. given: of those that callers give as objects."""
+    """read: the names of the structs that a function fills. given: those that callers give as objects."""
 
     def __init__(self, api):
         self.api = api
@@ -64,7 +64,7 @@ class Structs:
         self.values = {name: word for enum in api.enums.values() for (name, _, _), word in zip(enum.values, enum.words)}
         filled = {one.type.name for function in api.functions.values() for one in function.parameters
                   if one.type.is_pointer and not one.type.is_const}
-        for struct in reversed(api.structs.values()):  # what a struct contains is declared before it
+        for struct in reversed(api.structs.values()):  # a struct is declared after those that it contains
             if struct.name in filled:
                 filled |= {field.type.name for field in struct.fields}
         self.read = filled & set(api.structs)
@@ -75,7 +75,7 @@ class Structs:
     def phrase(self, doc, is_flag=False, is_inverse=False):
         """A comment of the header for readers of TypeScript."""
         doc = re.sub(r"(^|[;.]? ?)elsewhere: not \w+$", "", doc)
-        doc = re.sub(r"^(the )?an? (sum of )?bendy_\w+([:,;.] ?|$)", "", doc)  # the type says it
+        doc = re.sub(r"^(the )?an? (sum of )?bendy_\w+([:,;.] ?|$)", "", doc)  # the type already says it
         if is_flag:
             doc = re.sub(r"^0 or 1([:;] ?|$)", "", doc)
             doc = re.sub(r"\b([01]): ", lambda found: f"{(found[1] == '1') != is_inverse}: ", doc)
@@ -115,7 +115,7 @@ class Structs:
         return "number | null" if field.may_be_none else "number"
 
     def value(self, field, place):
-        """The expression that reads a field at a place of the struct."""
+        """The expression that reads a field at an offset of the struct."""
         kind = self.api.structs.get(field.type.name)
         if kind and not field.type.is_pointer:
             none = f"view.getUint32(at + {place}, true) === 0xffffffff ? null : " if kind.presence else ""
@@ -167,21 +167,21 @@ class Structs:
     # ---- Writing
 
     def is_given(self, struct):
-        """Whether callers give it as an object: it has defaults, and no pointers to their memory."""
+        """Whether callers give it as an object: it has defaults, and no pointers to callers' memory."""
         return struct.defaults is not None and struct.name != "bendy_error" and all(
             not field.type.is_pointer or field.type.name in self.api.handles or self.nested(field) for field in struct.fields)
 
     def nested(self, field):
-        """The struct that a field points to, if that is given as an object, too."""
+        """The struct that a field points to, if it is given as an object too."""
         struct = self.api.structs.get(field.type.name)
         return struct if struct and field.type.is_pointer and self.is_given(struct) else None
 
     def beyond(self, struct):
-        """How many bytes it takes in addition, for the structs that it points to."""
+        """The additional bytes for the structs that it points to."""
         return sum(self.layouts[field.type.name].size for field in struct.fields if self.nested(field))
 
     def given_type(self, struct):
-        """If it is also read, it is one type, each part of which may be absent where it is given."""
+        """A struct that is also read has the same type, all of whose members may be absent when it is given."""
         return f"Partial<{pascal(struct.name)}>" if struct.name in self.read else pascal(struct.name)
 
     def literal(self, text):

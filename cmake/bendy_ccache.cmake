@@ -1,6 +1,6 @@
-# Where ccache is installed, it compiles: what any clone of the project has compiled with the same flags is taken from its cache.
-# Paths are told to it as relative ones. It keys by what the compiler says that it has read (CCACHE_DEPEND), so that a miss costs no
-# second run of the preprocessor. A build without it is the same.
+# Uses ccache if it is installed: its cache serves every clone of the project that compiles with the same flags, because paths are
+# passed as relative ones. It uses the compiler's dependency output as the key (CCACHE_DEPEND), so that a miss does not run the
+# preprocessor twice. The build is the same without it.
 if(NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED ENV{CMAKE_CXX_COMPILER_LAUNCHER} AND NOT MSVC)
   find_program(BENDY_CCACHE ccache)
   if(BENDY_CCACHE)

@@ -1,5 +1,5 @@
-# cmake --install, in three components: the program; libraries, what a program that was linked needs to run; development,
-# the headers, the CMake package and the pkg-config files.
+# cmake --install, in three components: the program; libraries, which linked programs need at run time; development, the headers,
+# the CMake package and the pkg-config files.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/bendy)
@@ -19,7 +19,7 @@ install(FILES ${PROJECT_BINARY_DIR}/bendy-config.cmake ${PROJECT_BINARY_DIR}/ben
   ${CMAKE_CURRENT_LIST_DIR}/bendy_add_models.cmake
   DESTINATION ${package_dir} COMPONENT development)
 
-# pkg-config: paths from the file's own place, so that the tree may be moved. Who links a static library links what it needs too.
+# pkg-config: paths relative to the file itself, so that the tree may be moved. Static libraries need their dependencies linked.
 set(pkgconfig_dir ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH prefix_from_pkgconfig ${pkgconfig_dir} ${CMAKE_INSTALL_PREFIX})
 file(RELATIVE_PATH libdir_from_prefix ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_LIBDIR})
@@ -60,7 +60,7 @@ if(BENDY_TOOLS)
   install(TARGETS bendy EXPORT bendy_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
   install(EXPORT bendy_program NAMESPACE bendy:: FILE bendy-program.cmake DESTINATION ${package_dir} COMPONENT program)
   include(${CMAKE_CURRENT_LIST_DIR}/bendy_reference.cmake)
-  # What a desktop and file(1) need to know the files.
+  # Files by which a desktop and file(1) recognise the format.
   set(packaging ${PROJECT_SOURCE_DIR}/packaging)
   install(FILES ${packaging}/bendy.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages COMPONENT program)
   install(FILES ${packaging}/bendy.magic DESTINATION ${CMAKE_INSTALL_DATADIR}/bendy COMPONENT program)

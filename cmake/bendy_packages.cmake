@@ -1,4 +1,4 @@
-# cpack -G DEB: Debian packages of the components, as docs/decisions/0024 and packaging/README.md say.
+# cpack -G DEB: Debian packages of the components, see docs/decisions/0024 and packaging/README.md.
 set(BENDY_MAINTAINER "The Bendy contributors <bendy@localhost>" CACHE STRING "Who answers for the packages: NAME <ADDRESS>")
 mark_as_advanced(BENDY_MAINTAINER)
 

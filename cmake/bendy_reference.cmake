@@ -1,4 +1,4 @@
-# Man pages and completions of what the program says of itself: docs/cli.md, the third of them, is kept in the tree.
+# Man pages and completions made from the program's help. The third output, docs/cli.md, is kept in the tree.
 find_package(Python3 COMPONENTS Interpreter)
 if(NOT Python3_FOUND)
   message(STATUS "Python is missing: no man pages, no completions")

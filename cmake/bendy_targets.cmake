@@ -1,23 +1,19 @@
-# What every target of this project shares.
+# Settings that all targets of this project share.
 
-# Ends the name of a source that there is one of for each kind of system.
+# The suffix of sources that exist once per system.
 set(BENDY_SYSTEM posix)
 if(WIN32)
   set(BENDY_SYSTEM windows)
 endif()
 
-# A WebAssembly module lies at address 0. Code for any address is larger.
+# A WebAssembly module is loaded at address 0, so position-independent code would only be larger.
 if(EMSCRIPTEN)
   set(CMAKE_CXX_COMPILE_OPTIONS_PIC "")
-  if(BENDY_TOOLS)
-    # What this C++ library lacks.
-    add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${PROJECT_SOURCE_DIR}/web/tools/float_charconv.h>")
-  endif()
 endif()
 
-# bendy_library(NAME [EMBEDDABLE] SOURCES ... [HEADERS ...] [TABLES ...]): a library bendy_NAME with the alias bendy::NAME;
-# its public headers, which must compile by themselves, and the .def tables, which need not, lie under include/. One that is
-# EMBEDDABLE is installed, and shared if BUILD_SHARED_LIBS says so; the others are parts of the program.
+# bendy_library(NAME [EMBEDDABLE] SOURCES ... [HEADERS ...] [TABLES ...]): a library bendy_NAME with the alias bendy::NAME. Its
+# public headers, which must compile by themselves, and its .def tables, which need not, are under include/. An EMBEDDABLE library
+# is installed, and shared if BUILD_SHARED_LIBS is set; the others are parts of the program.
 function(bendy_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "EMBEDDABLE" "" "SOURCES;HEADERS;TABLES")
   if(arg_EMBEDDABLE)
@@ -34,12 +30,12 @@ function(bendy_library name)
     PUBLIC FILE_SET tables TYPE HEADERS BASE_DIRS include FILES ${arg_TABLES})
   bendy_options(bendy_${name})
   if(BENDY_FUZZ)
-    # Where the fuzzer has been, without what has been compared: the other tests would take twice as long.
+    # Coverage without traced comparisons, which would double the time of the other tests.
     target_compile_options(bendy_${name} PRIVATE -fsanitize-coverage=inline-8bit-counters,pc-table)
   endif()
 endfunction()
 
-# What stands in a namespace block with BENDY_PUBLIC is all that a shared library exports: docs/decisions/0024.
+# A shared library exports only namespace blocks marked BENDY_PUBLIC: docs/decisions/0024.
 function(bendy_export_public_headers target)
   string(REPLACE _ - file_name ${target})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${file_name}
@@ -47,7 +43,7 @@ function(bendy_export_public_headers target)
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
     DEFINE_SYMBOL "" INSTALL_RPATH $ORIGIN)
   if(BUILD_SHARED_LIBS AND CMAKE_EXECUTABLE_FORMAT STREQUAL ELF)
-    # Else instances of the C++ library's templates would be exported too.
+    # Otherwise instances of the C++ library's templates would be exported too.
     set(exports ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/bendy_exports.map)
     target_link_options(${target} PRIVATE LINKER:--version-script=${exports})
     set_target_properties(${target} PROPERTIES LINK_DEPENDS ${exports})
@@ -59,7 +55,7 @@ function(bendy_options target)
   bendy_private_options(${target})
 endfunction()
 
-# The same without a word to those who use the target.
+# Private options: users of the target do not inherit them.
 function(bendy_private_options target)
   target_compile_features(${target} PRIVATE cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
@@ -80,7 +76,7 @@ function(bendy_private_options target)
   endif()
 endfunction()
 
-# For GCC, clang and what takes their options.
+# For GCC, clang and compilers that accept their options.
 function(bendy_gnu_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

@@ -49,12 +49,12 @@ math(EXPR cut "${cut} + 6")
 string(SUBSTRING "${page}" ${cut} -1 after)
 as_literals("${before}" before)
 as_literals("${after}" after)
-file(WRITE ${OUTPUT} "#include \"inspect/inspect_html.h\"
+file(WRITE ${OUTPUT} "#include \"reports/inspect_html.h\"
 
-namespace bendy::cli {
+namespace bendy::tools {
 
 const std::string_view kPageBeforeData =${before};
 const std::string_view kPageAfterData =${after};
 
-}  // namespace bendy::cli
+}  // namespace bendy::tools
 ")

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Runs a program of Windows under wine: run_wine.sh PROGRAM.exe [ARGUMENT...]. Its registry and drives lie in build/cross/windows.
+# Runs a Windows program under wine: run_wine.sh PROGRAM.exe [ARGUMENT...]. Its registry and drives are in build/cross/windows.
 export WINEPREFIX=${BENDY_WINE_PREFIX:-$(dirname "$(readlink -f "$0")")/../build/cross/windows/wine}
 export WINEDEBUG=-all WINEDLLOVERRIDES='mscoree,mshtml,winemenubuilder.exe='
 [ -n "${LC_ALL:-}" ] || export LC_ALL=C.UTF-8 # file names are UTF-8
-# What wine starts in the background would keep the program's output open when the program is long gone.
+# Processes that wine starts in the background would keep the program's output open after the program has ended.
 wine wineboot </dev/null >/dev/null 2>&1
 exec wine "$@"

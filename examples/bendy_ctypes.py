@@ -3,9 +3,8 @@
 
     ./bendy_ctypes.py mannequin.bendy Walk 0.3 IK_LeftArm 0.3 1.2 0.4 > posed.obj
 
-As a module: Model and Pose below. The library is found beside this file or the program bendy, by the loader, or by its path in
-BENDY_LIBRARY. Numbers go in and out
-as array.array("f"), which numpy.asarray takes without a copy.
+As a module: Model and Pose below. The library is looked for beside this file or the program bendy, by the loader, or at the path
+in BENDY_LIBRARY. Numbers are passed as array.array("f"), which numpy.asarray takes without a copy.
 """
 
 import array
@@ -22,7 +21,7 @@ REACH_STATUS = ("reached", "out of reach", "not reached", "aimed")
 
 
 class BendyError(Exception):
-    """What went wrong: message, code ("CHUNK_TOO_LONG", "NOT_FOUND", ...), and the offset in the file."""
+    """An error: message, code ("CHUNK_TOO_LONG", "NOT_FOUND", ...), and the offset in the file."""
 
     def __init__(self, error):
         super().__init__(error.message.decode("utf-8", "replace"))
@@ -83,7 +82,7 @@ class Vertices(Sized):
                 ("tangent_stride", c_size_t)]
 
 
-# What each function that is used here takes before the error, and gives.
+# The result and the parameters, without the error, of each function used here.
 SIGNATURES = {
     "open": (c_void_p, c_char_p, c_void_p),
     "open_copy": (c_void_p, c_char_p, c_size_t, c_void_p),
@@ -102,8 +101,8 @@ COUNTS = ("joint", "clip", "chain", "morph_target", "mesh", "submesh", "material
 
 
 def find_library():
-    """The library's path: what BENDY_LIBRARY says; else in the folder where Bendy is installed, told by where this file lies or by
-    the program bendy on the PATH; else its name alone, for the system's loader."""
+    """The library's path: BENDY_LIBRARY; otherwise in the folder where Bendy is installed, derived from this file's path or the
+    program bendy on the PATH; otherwise only its name, for the system's loader."""
     if "BENDY_LIBRARY" in os.environ:
         return os.environ["BENDY_LIBRARY"]
     name = {"win32": "libbendy.dll", "darwin": "libbendy.0.dylib"}.get(sys.platform, "libbendy.so.0")
@@ -186,7 +185,7 @@ class Model:
 
 
 class Pose:
-    """A model in one position; at rest at first."""
+    """A model in one position; initially at rest."""
 
     def __init__(self, model):
         self.handle = None
@@ -206,7 +205,7 @@ class Pose:
         call("constrain", self.handle)
 
     def reach(self, chain, position, rotation=None, **options):
-        """Gives (status, metres from tip to target). options: fields of ReachOptions."""
+        """Returns (status, metres from tip to target). options: fields of ReachOptions."""
         result = ReachResult()
         turned = None if rotation is None else (c_float * 4)(*rotation)
         call("reach", self.handle, self.model.find("chain", chain), (c_float * 3)(*position), turned, byref(ReachOptions(**options)),
@@ -214,7 +213,7 @@ class Pose:
         return REACH_STATUS[result.status], result.distance
 
     def joint_matrices(self):
-        """16 floats for each joint, column after column: joint space to model space."""
+        """16 floats for each joint, column by column: joint space to model space."""
         joints = self.model.count("joint")
         matrices = array.array("f", bytes(64 * joints))
         call("joint_matrices", self.handle, 0, joints, None, address(matrices))

@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
     std::printf("%zu characters, %d frames, %zu threads: %.1f characters per millisecond\n", count, frames, threads,
                 static_cast<double>(count) * frames / taken.count());
 
-    // What threads have made is what one makes alone.
+    // The result of several threads equals that of one.
     const std::vector<float> by_all = vertices;
     bendy::Crowd alone(*model);
     const bool is_same = alone.play(members) && by_all == vertices;

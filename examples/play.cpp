@@ -1,5 +1,5 @@
-// What a game does with a character's clips: one fades into the next, footsteps are heard, the root's movement carries
-// the character, something hangs in a hand, and what the camera cannot see is not skinned.
+// Plays a character's clips as a game does: one fades into the next, footsteps are heard, root motion moves the
+// character, something hangs in a hand, and a character outside the view is not skinned.
 //
 //     bendy convert mannequin.glb && play mannequin.bendy [ROOT JOINT] [SOCKET JOINT]
 #include <bendy/format/diagnostics.h>
@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
         }
         fade.advance(1.0 / 60.0);
 
-        bendy::RootMotion moved;  // of all that plays, by its share
+        bendy::RootMotion moved;  // of all clips that play, by their shares
         float share = 0.0f;
         for (const bendy::Playing& playing : fade.playing()) {
             share += playing.share;
@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
         character = compose(character, moved);
 
         if (!bendy::sample(pose, fade, scratch) || !root.extract(pose)) return 1;
-        const auto box = bounds.of(pose);  // in model space: hold it against the camera before skinning
+        const auto box = bounds.of(pose);  // in model space: test it against the camera before skinning
         if (!box || !bendy::skin(pose, {.out = {.positions = positions}})) return 1;
         for (const glm::vec3& position : positions) outside += box->contains(position) ? 0 : 1;
         if (frame % 20 != 0) continue;

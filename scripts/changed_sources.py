@@ -45,7 +45,7 @@ def main():
     if ".clang-tidy" in changed:
         print("\n".join(sources))
         return
-    # What is included, as it is written, by the last part of its path: a name that two files share counts for both.
+    # The included files as written, by the last part of their paths: a name that two files share counts for both.
     includers = collections.defaultdict(set)
     for file in files:
         for name in INCLUDE.findall((ROOT / file).read_text(encoding="utf-8")):

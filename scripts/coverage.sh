@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the tests of format/ and runtime/ run through: lines and branches of both folders, and of verification file by
-# file. Fails if there is less than is promised: 95 % of the lines, all branches of verification.
+# Measures the coverage of format/ and runtime/ by the tests: lines and branches of both folders, and of verification file
+# by file. Fails below the promised level: 95 % of the lines, all branches of verification.
 #   scripts/coverage.sh                  builds in build/coverage, runs the tests, prints the table
 #   scripts/coverage.sh table            the table alone, after such a run
 #   scripts/coverage.sh missed [FILE...] the branches that went one way only, of verification or of these files
@@ -22,7 +22,7 @@ case ${1:-} in
     missed) export_counts | python3 scripts/missed_branches.py "${@:2}"; exit ;;
 esac
 
-# Assertions are off: the caller's mistakes that they catch are no branch that a file can take.
+# Assertions are off: the caller's mistakes that they catch are not branches that a file can take.
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE= -DCMAKE_CXX_COMPILER=clang++ -DBENDY_TOOLS=OFF -DBENDY_TESTS=ON \
     -DBENDY_BENCHMARKS=OFF -DBENDY_EXAMPLES=OFF -DBENDY_INSTALL=OFF \
     -DCMAKE_CXX_FLAGS="-O1 -DNDEBUG -fprofile-instr-generate -fcoverage-mapping" >/dev/null

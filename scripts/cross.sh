@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds everything but the viewer for other machines, runs the tests there by an emulator, and holds what the program writes
-# against the hashes that are kept: the same bytes everywhere. Long.
+# Builds everything except the viewer for other machines, runs the tests there in an emulator, and compares the program's output
+# with the stored hashes: the bytes must be the same everywhere. Takes long.
 #   scripts/cross.sh [windows] [aarch64]   64-bit Windows under wine, 64-bit ARM under qemu-user; both if none is named
 #   scripts/cross.sh short                 only how files are mapped and written on Windows: a few minutes
 set -euo pipefail
@@ -19,7 +19,7 @@ build() { # build SYSTEM [TARGET...]
     cmake --build --preset "$system" --parallel "$(nproc)" ${1:+--target "$@"}
 }
 
-# The program as a command of this machine.
+# Wraps the program as a command of this machine.
 program() { # program SYSTEM
     local folder=$PWD/build/cross/$1
     case $1 in

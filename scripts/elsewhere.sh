@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the kernels for processors that this machine is not, and tests them there: NEON under qemu, WebAssembly under node.
+# Builds the kernels for other processors and tests them: NEON under qemu, WebAssembly under node.
 set -euo pipefail
 cd "$(dirname "$0")/../tests/elsewhere"
 for processor in aarch64 wasm32; do cmake --workflow --preset "$processor"; done

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fuzzes for a while; exit 1 and the inputs, if anything was found.
+# Fuzzes for a limited time; exits with 1 and prints the inputs if it finds anything.
 #   scripts/fuzz.sh                           five seconds for each target, two at a time: for every change; with one seed and an
 #                                             empty corpus, so that two changes are judged by the same inputs
 #   scripts/fuzz.sh 7200 [animate convert]    two hours each for these, or all, other inputs every time; the libraries that

@@ -15,8 +15,8 @@ case ${2:-} in
     ?*) files=$(printf '%s\n' "${@:2}") ;;
     *) files=$(git ls-files '*.cpp') ;;
 esac
-# Not in this build: sources of another system, which scripts/cross.sh compiles, those for builds without a codec, which
-# tests/install/subproject compiles, bench/peers, which needs the other runtimes, and web, which emscripten compiles.
-mapfile -t sources < <(printf '%s\n' "$files" | grep '\.cpp$' | grep -v -e '^tests/' -e '^bench/peers/' -e '^web/' -e '_windows\.cpp$' -e '/without_')
+# Not in this build: sources for other systems, which scripts/cross.sh compiles; those for builds without a codec, which
+# tests/install/subproject compiles; bench/peers, which needs the other runtimes; and web, which emscripten compiles.
+mapfile -t sources < <(printf '%s\n' "$files" | grep '\.cpp$' | grep -v -e '^tests/' -e '^bench/peers/' -e '^bindings/web/' -e '_windows\.cpp$' -e '/without_')
 echo "clang-tidy: ${#sources[@]} sources"
 [ ${#sources[@]} = 0 ] || scripts/tidy_in_groups.py "$build" "${sources[@]}"

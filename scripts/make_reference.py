@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes of what `bendy --help` prints the man pages, the completions for bash, zsh and fish, and docs/cli.md.
+"""Makes the man pages, the completions for bash, zsh and fish, and docs/cli.md from the output of `bendy --help`.
 
     scripts/make_reference.py --bendy build/release/cli/bendy --markdown docs/cli.md
     scripts/make_reference.py --bendy PROGRAM --man FOLDER --completions FOLDER

@@ -127,8 +127,8 @@ if wants all; then
     need wasm-ld lld
 fi
 install_missing
-# What the WebAssembly build needs from elsewhere, so that the checks download nothing.
+# Downloads for the WebAssembly build, so that the checks download nothing.
 if wants test; then
     for system in web web-plain; do scripts/cross_dependencies.sh "$system"; done
-    [ -e web/node_modules/typescript ] || (cd web && npm ci --silent --no-audit --no-fund)
+    [ -e bindings/web/node_modules/typescript ] || (cd bindings/web && npm ci --silent --no-audit --no-fund)
 fi

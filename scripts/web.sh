@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the npm package in web/dist and tests it in node: the runtime and the tools as WebAssembly, and the page web/dist/page.html,
-# which Chromium tests.
+# Builds the npm package in bindings/web/dist and tests it in node: the runtime and the tools as WebAssembly, and the page
+# bindings/web/dist/page.html, which Chromium tests.
 #   scripts/web.sh            all of it
 #   scripts/web.sh runtime    the runtime alone, without the tools and the page
 set -euo pipefail
@@ -18,28 +18,28 @@ fi
 
 systems=(web web-plain)
 [ "$what" = runtime ] || systems+=(web-tools)
-mkdir -p web/src/generated
+mkdir -p bindings/web/src/generated
 for system in "${systems[@]}"; do
     scripts/cross_dependencies.sh "$system"
     cmake --preset "$system" >/dev/null
     cmake --build --preset "$system"
 done
-cp build/cross/web/build/web/bindings.ts web/src/generated/
-cd web
+cp build/cross/web/build/web/bindings.ts bindings/web/src/generated/
+cd bindings/web
 [ -e node_modules/puppeteer-core ] || npm ci --silent
-node embed.mjs ../build/cross/web/build/web/bendy.wasm src/generated/simd.ts 160000
-node embed.mjs ../build/cross/web-plain/build/web/bendy.wasm src/generated/plain.ts 160000
+node embed.mjs ../../build/cross/web/build/web/bendy.wasm src/generated/simd.ts 160000
+node embed.mjs ../../build/cross/web-plain/build/web/bendy.wasm src/generated/plain.ts 160000
 rm -rf dist
 if [ "$what" = runtime ]; then
     npx --no-install tsc -p tsconfig.runtime.json
     exec node --test --test-concurrency=2 test/{broken,load,memory,model,play,pose,three}.test.mjs
 fi
-tools=../build/cross/web-tools/build/web/tools
+tools=../../build/cross/web-tools/build/web/tools
 { echo '// @ts-nocheck'; cat "$tools/tools.js"; } >src/generated/tools_glue.ts
 node embed.mjs "$tools/tools.wasm" src/generated/tools.ts 900000
 npm run --silent build
 npx --no-install tsc -p page
-"$BENDY_PROGRAM" convert ../examples/mannequin.glb --rig page/example.rig.json --lod --quiet -o dist/example.bendy
+"$BENDY_PROGRAM" convert ../../examples/mannequin.glb --rig page/example.rig.json --lod --quiet -o dist/example.bendy
 node page/build.mjs dist/example.bendy
 rm dist/example.bendy
 npm test

@@ -570,7 +570,7 @@ MARKED = re.compile(r'(<!-- make_bytes: (.+?) -->\n)(.*?)(<!-- end -->)', re.DOT
 
 
 def make_all():
-    """Every file that this script is answerable for: path -> bytes."""
+    """Every file that this script writes: path -> bytes."""
     roots = {}
     made = {}
     for example, make in EXAMPLES.items():

@@ -29,13 +29,14 @@ def camel(name):
 
 
 def joint_submesh():
-    """The record of JNTS that is no struct of records.def: a joint, then a SubmeshRecord."""
+    """The record of JNTS, which is not a struct of records.def: a joint, then a SubmeshRecord."""
     joint = tables.Row(name="joint", type="u32", count=1, offset=0, what="to which the polygons belong", values="", unit="", reference=None)
     return [joint, *RECORDS["SubmeshRecord"].fields]
 
 
 def merged(parts):
-    """The parts, two of one name as one: (part, the part that is there where the first one's condition does not hold)."""
+    """The parts, with parts of the same name merged: (part, the part that is present if the first one's condition does not
+    hold)."""
     pairs = {}
     for part in parts:
         pairs.setdefault(part.name, []).append(part)
@@ -202,7 +203,7 @@ def write_kaitai():
 # --- ImHex -----------------------------------------------------------------------------------------------------------
 
 IMHEX = {"u8": "u8", "i8": "s8", "u16": "u16", "i16": "s16", "u32": "u32", "i32": "s32", "u64": "u64", "f32": "float"}
-KEPT_WORDS = {"any", "u8", "i8", "u16", "i16", "u32", "f32"}  # names that the language keeps for itself, or nearly
+KEPT_WORDS = {"any", "u8", "i8", "u16", "i16", "u32", "f32"}  # names that are reserved, or nearly so, in the language
 
 
 def imhex_name(word):

@@ -66,7 +66,7 @@ def part_form(part):
 
 
 def leaf_form(parts, records):
-    """What a leaf's content is; its odd part is not in it."""
+    """The schema of a leaf's content, without its odd part."""
     if [part.kind for part in parts] == ["text"]:
         return {"type": "string"}
     members = {}

@@ -1,4 +1,4 @@
-"""The tables of format/ as Python has them, for the scripts that write files from them: chunk_ids.def, records.def,
+"""The tables of format/ as Python data, for the scripts that generate files from them: chunk_ids.def, records.def,
 leaf_parts.def."""
 
 import re

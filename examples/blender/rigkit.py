@@ -10,12 +10,12 @@ from mathutils import Matrix, Vector
 
 
 def script_arguments():
-    """What follows "--" on Blender's command line."""
+    """The arguments after "--" on Blender's command line."""
     return sys.argv[sys.argv.index('--') + 1:] if '--' in sys.argv else []
 
 
 def empty_scene(last_frame, frames_per_second=30):
-    """A scene with nothing in it. Clips begin at frame 0, so that they begin at time 0 in the glTF file."""
+    """An empty scene. Clips begin at frame 0, so that they begin at time 0 in the glTF file."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     scene.render.fps = frames_per_second
@@ -54,7 +54,7 @@ def limit_rotation(pose_bone, limits, order):
 
 
 def limit_ik(pose_bone, limits, stiffness=(0.0, 0.0, 0.0), locked=''):
-    """The limits that Blender's IK solver keeps. They must include 0, so ranges that do not are widened to it."""
+    """The limits for Blender's IK solver. They must include 0, so ranges that do not are widened to it."""
     for axis, (low, high) in limits.items():
         setattr(pose_bone, f'use_ik_limit_{axis}', True)
         setattr(pose_bone, f'ik_min_{axis}', math.radians(min(low, 0)))

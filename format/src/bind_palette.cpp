@@ -35,7 +35,7 @@ std::vector<glm::dmat4> rest_matrices(std::span<const RestRecord> rests, std::sp
 }
 
 glm::mat4 derive_inverse_bind(const glm::dmat4& rest, const glm::mat4& base) {
-    // The matrices are affine: inverts the linear part by cofactors, and transforms the negated translation by it.
+    // The matrices are affine: invert the linear part by cofactors, and apply it to the negated translation.
     const glm::dmat3 inverse = glm::inverse(glm::dmat3(rest));
     glm::dmat4 whole(inverse);
     whole[3] = glm::dvec4(-(inverse * glm::dvec3(rest[3])), 1.0);

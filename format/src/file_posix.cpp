@@ -18,7 +18,7 @@
 namespace bendy {
 namespace {
 
-/// Reads until `size` bytes are there or the file ends.
+/// Reads until `size` bytes have arrived or the file ends.
 bool read_all(int descriptor, std::byte* to, std::size_t size, std::size_t& got) {
     while (got < size) {
         constexpr std::size_t kMostAtOnce = std::size_t{1} << 30;
@@ -31,8 +31,8 @@ bool read_all(int descriptor, std::byte* to, std::size_t size, std::size_t& got)
     return true;
 }
 
-/// A mapped file in the list that mapped_file_at() reads. Entries are used again, but never freed, so that a signal
-/// handler can walk along them at any time.
+/// A mapped file in the list that mapped_file_at() reads. Entries are reused but never freed, so that a signal handler
+/// can walk the list at any time.
 struct Mapping {
     std::atomic<bool> is_used{true};
     std::atomic<const std::byte*> begin{nullptr};  ///< null: `size` and `name` may be changing

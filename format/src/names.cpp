@@ -64,7 +64,7 @@ KeyProblem ambiguous_key(std::string_view kind, std::string_view text) {
             true};
 }
 
-/// Of a text that refers to nothing.
+/// Explains a text that refers to nothing.
 KeyProblem no_such_thing(std::string_view kind, std::string_view text, const ThingKey& key,
                          std::span<const std::string_view> names) {
     if (key.name) return {no_such_name(kind, *key.name, names)};

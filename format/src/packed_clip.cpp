@@ -54,8 +54,8 @@ bool read_joints(Bytes bits, std::uint32_t joints, PackedList& list) {
     return joints % 8 == 0 || bits.empty() || byte_at(bits, bits.size() - 1) >> (joints % 8) == 0;
 }
 
-/// Returns the number of bits in a frame of the segment whose tables start at `at`; nothing if a width is not allowed,
-/// or if all of a track's are 0.
+/// Returns the number of bits in a frame of the segment whose tables start at `at`; nothing if a width is too large,
+/// or if every width of some track is 0.
 std::optional<std::uint64_t> frame_bits(const PackedView& view, std::uint64_t at) {
     std::uint64_t bits = 0;
     for (std::size_t k = 0; k < kPackedLists; ++k) {

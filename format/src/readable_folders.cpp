@@ -46,7 +46,7 @@ bool has_scheme(std::string_view uri, std::string_view scheme) {
            std::equal(scheme.begin(), scheme.end(), uri.begin(), [&](char b, char a) { return is_same(a, b); });
 }
 
-/// A URI without its scheme, to be decoded: what it names as a file.
+/// Returns a URI without its scheme, to be decoded: the file name in it.
 Result<std::string_view, LinkProblem> name_in(std::string_view uri) {
     constexpr std::string_view kFile = "file://";
     if (uri.empty()) return LinkProblem::empty;
@@ -69,7 +69,7 @@ Result<fs::path, LinkProblem> path_of(std::string_view name, const fs::path& fol
     return folder / path;
 }
 
-/// Empty if it cannot be told.
+/// Empty if it cannot be determined.
 fs::path whole_name(const fs::path& path) {
     std::error_code error;
     fs::path whole = fs::absolute(path, error).lexically_normal();
@@ -77,12 +77,13 @@ fs::path whole_name(const fs::path& path) {
     return whole.has_filename() ? whole : whole.parent_path();
 }
 
-/// With all links resolved, and what does not exist appended; empty if it cannot be told.
+/// Resolves all links, and appends the part that does not exist; empty if it cannot be determined.
 fs::path real_path(const fs::path& path) {
     std::error_code error;
     const fs::path whole = fs::absolute(path, error);
     if (error) return {};
-    // Twice: what does not exist is only tidied up, which may leave the name of a link, as for "none/../link".
+    // Twice, because the nonexistent part is only normalised, which may leave the name of a link, as for
+    // "none/../link".
     fs::path real = fs::weakly_canonical(whole, error);
     if (!error) real = fs::weakly_canonical(real, error);
     if (error) return {};
@@ -94,7 +95,7 @@ bool is_below(const fs::path& path, const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-/// Of a file's name, which may have none.
+/// Returns the folder in a file's name; `.` if it has none.
 fs::path folder_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
@@ -130,7 +131,7 @@ ReadableFolders ReadableFolders::of(const fs::path& file, const fs::path& root) 
 Result<fs::path, LinkProblem> ReadableFolders::find(std::string_view uri) const {
     const auto decoded = linked_file(uri, start_);
     if (!decoded) return decoded.error();
-    const auto name = name_in(uri);  // names with %20 in them exist, and some with a backslash
+    const auto name = name_in(uri);  // some files have a literal %20 or backslash in their names
     const auto literal = name ? path_of(*name, start_) : Result<fs::path, LinkProblem>(name.error());
     std::error_code ignored;
     if (literal && *literal != *decoded && hold(*literal) && fs::exists(*literal, ignored) &&
@@ -144,12 +145,13 @@ Result<fs::path, LinkProblem> ReadableFolders::find(std::string_view uri) const 
 bool ReadableFolders::hold(const fs::path& file) const {
     const fs::path name = whole_name(file);
     const auto shares_root = [&](const fs::path& folder) { return folder.root_name() == name.root_name(); };
-    // Nothing on another drive is looked at: on Windows, the name of a server would be sent the user's credentials.
+    // Never looks at another drive: on Windows, a server's name would make the system send the user's credentials to
+    // it.
     if (std::none_of(folders_.begin(), folders_.end(), shares_root) && !shares_root(root_)) return false;
     const fs::path real = real_path(file);
     if (std::any_of(folders_.begin(), folders_.end(), [&](const fs::path& folder) { return is_below(real, folder); }))
         return true;
-    // A `..` after a link leads elsewhere than the name says.
+    // A `..` after a link does not lead to the parent that the name shows.
     return is_below(name, root_) && real_path(name) == real;
 }
 

@@ -19,7 +19,7 @@ T load(Bytes data, std::uint64_t at) {
     return value;
 }
 
-/// What an integer stands for.
+/// Returns the value that an integer represents.
 template <class T>
 float scaled(T value, const StreamView& stream, std::uint32_t component) {
     const auto number = static_cast<float>(value);
@@ -31,7 +31,7 @@ float scaled(T value, const StreamView& stream, std::uint32_t component) {
     return number;
 }
 
-/// Calls visit(load), load(at) being one of the stream's numbers as it lies.
+/// Calls visit(load), where load(at) returns one of the stream's numbers as stored.
 template <class Visit>
 auto with_type(const StreamView& stream, const Visit& visit) {
     switch (stream.type) {
@@ -50,7 +50,7 @@ auto with_type(const StreamView& stream, const Visit& visit) {
     }
 }
 
-/// The direction at the start of an element; both numbers the type's smallest: no direction, zero.
+/// Returns the direction at the start of an element; zero if both numbers are the type's smallest.
 template <class Load>
 glm::vec3 direction_at(const StreamView& stream, const Load& load, std::uint64_t at) {
     using T = decltype(load(at));

@@ -16,7 +16,7 @@ namespace bendy {
 
 /// \param number  of errno
 Error error_of(ErrorCode code, int number);
-/// The error that GetLastError() tells, as the errno number that means the same.
+/// Returns the error of GetLastError() as the equivalent errno number.
 Error system_error(ErrorCode code);
 
 /// A handle that closes itself.

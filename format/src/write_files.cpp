@@ -11,7 +11,7 @@
 
 namespace bendy {
 
-/// Slots are used again, but never freed, so that a signal handler can walk along them at any time.
+/// Slots are reused but never freed, so that a signal handler can walk the list at any time.
 struct TemporaryName::Slot {
     std::atomic<const std::filesystem::path::value_type*> name{nullptr};  ///< null: free
     Slot* next = nullptr;
@@ -21,11 +21,11 @@ namespace {
 
 std::atomic<TemporaryName::Slot*> slots{nullptr};
 std::atomic<int> replacing{0};       ///< threads that are replacing files together
-std::atomic<bool> is_ending{false};  ///< nothing must be replaced any more
+std::atomic<bool> is_ending{false};  ///< from now on nothing must be replaced
 static_assert(std::atomic<const void*>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
               std::atomic<bool>::is_always_lock_free);
 
-/// In place of a name that remove_temporary_files() has taken.
+/// Replaces a name that remove_temporary_files() has taken.
 constexpr std::filesystem::path::value_type kTaken = 0;
 
 TemporaryName::Slot* slot_for(const std::filesystem::path::value_type* name) {
@@ -41,7 +41,7 @@ TemporaryName::Slot* slot_for(const std::filesystem::path::value_type* name) {
     return added.release();
 }
 
-/// While it lives, remove_temporary_files() waits, and does not run on this thread, where it would wait for ever.
+/// During its lifetime, remove_temporary_files() waits, and does not run on this thread, where it would wait for ever.
 class Replacing {
 public:
     Replacing() {
@@ -73,7 +73,7 @@ void remove(std::unique_ptr<TemporaryName>& file) {
 void put_back(StagedFile& file) {
     if (file.kept) {
         static_cast<void>(replace(file.target, file.kept->path()));
-        remove(file.kept);  // it is there still if it is the target's own second name
+        remove(file.kept);  // still exists if it is a second link to the target
     } else if (file.is_replaced) {
         remove_at_once(file.target.c_str());
     }
@@ -84,7 +84,7 @@ Result<void, WriteFailure> replace_all(std::vector<StagedFile>& files) {
     if (!now.may_begin()) return WriteFailure{0, cannot_write(EINTR)};
     const auto together =
         std::count_if(files.begin(), files.end(), [](const StagedFile& file) { return file.beside != nullptr; });
-    // Before the first rename, because getting memory may fail.
+    // Before the first rename, because allocation may fail.
     for (StagedFile& file : files) {
         if (file.beside && together > 1) file.kept = name_beside(file.target);
     }
@@ -109,7 +109,7 @@ TemporaryName::TemporaryName(std::filesystem::path path)
 
 TemporaryName::~TemporaryName() {
     const std::filesystem::path::value_type* name = path_->c_str();
-    // A signal handler that has taken the name may still be reading it: it then stays until the program has ended.
+    // A signal handler that has taken the name may still be reading it, so it stays until the program ends.
     if (!slot_->name.compare_exchange_strong(name, nullptr)) static_cast<void>(path_.release());
 }
 

@@ -5,11 +5,12 @@
 #include <filesystem>
 #include <memory>
 
-// How files are written: what write_files.cpp, the same on all systems, asks of write_files_posix.cpp and _windows.cpp.
+// How files are written: the functions that the portable write_files.cpp needs from write_files_posix.cpp and
+// _windows.cpp.
 namespace bendy {
 
-/// The name of a temporary file, in the list that remove_temporary_files() reads, while it lives. Does not make or
-/// remove the file.
+/// The name of a temporary file, listed for remove_temporary_files() during its lifetime. Does not make or remove the
+/// file.
 class TemporaryName {
 public:
     explicit TemporaryName(std::filesystem::path path);
@@ -28,11 +29,11 @@ private:
     Slot* slot_;
 };
 
-/// A name in the folder of `target` that this program has not used yet. Short, so that a target with the longest
-/// possible name can be written.
+/// Returns an unused name in the folder of `target`. Short, so that a target with the longest possible name can be
+/// written.
 std::unique_ptr<TemporaryName> name_beside(const std::filesystem::path& target);
 
-/// A file that is written, but not yet where it belongs.
+/// A file that has been written, but is not yet in place.
 struct StagedFile {
     std::filesystem::path target;
     std::unique_ptr<TemporaryName> beside;  ///< the new bytes; null: they went directly to a pipe or a device
@@ -48,28 +49,28 @@ struct StagedFile {
     ~StagedFile();
 };
 
-/// Writes a new file beside the one to be written, flushed to disk, with the owner and the mode that it shall have. On
-/// failure the new file is removed.
+/// Writes a new file beside its target, flushed to disk, with its final owner and mode. On failure the new file is
+/// removed.
 Result<void> stage(const FileContents& contents, StagedFile& staged);
 
-/// Keeps the old file beside the target, under another name. True also if there is none; on failure the system's error
-/// is set.
+/// Keeps the old file beside the target, under another name. Returns true also if there is none; on failure the
+/// system's error is set.
 bool keep_old(StagedFile& staged);
 
-/// Replaces a file by another, completely or not at all; on failure the system's error is set.
+/// Replaces a file by another, atomically; on failure the system's error is set.
 bool replace(const std::filesystem::path& target, const std::filesystem::path& by);
 
-/// The error of what failed above.
+/// Returns the error of a failed call above.
 Error last_error();
-/// What no other program that runs has.
+/// Returns a number that no other running program has.
 unsigned long process_number();
 
-// These two may be called from signal handlers.
+// These two are safe in signal handlers.
 void remove_at_once(const std::filesystem::path::value_type* name) noexcept;
 /// Sleeps for about a millisecond.
 void wait_briefly() noexcept;
 
-/// While it lives, no signal handler that may end the program runs on this thread.
+/// During its lifetime, no signal handler that may end the program runs on this thread.
 class SignalsBlocked {
 public:
     SignalsBlocked();

@@ -52,7 +52,7 @@ void take_owner_and_mode(int descriptor, const struct stat& old) {
         constexpr auto kSame = static_cast<uid_t>(-1);
         if (::fchown(descriptor, old.st_uid, old.st_gid) != 0) {
             mode &= kRights;
-            // What the old group might do is not for another group, unless all others may.
+            // The new group must not get the old group's rights, unless everyone has them.
             if (::fchown(descriptor, kSame, old.st_gid) != 0) mode &= ~kOfGroup | (mode << 3U & kOfGroup);
         }
     }
@@ -64,7 +64,7 @@ void take_owner_and_mode(int descriptor, const struct stat& old) {
 Result<void> stage(const FileContents& contents, StagedFile& staged) {
     std::error_code not_there;
     staged.target =
-        std::filesystem::canonical(contents.path, not_there);  // what a symbolic link leads to, not the link
+        std::filesystem::canonical(contents.path, not_there);  // the target of a symbolic link, not the link
     if (not_there) staged.target = contents.path;
     struct stat old {};
     const bool is_there = ::stat(staged.target.c_str(), &old) == 0;
@@ -94,7 +94,7 @@ Result<void> stage(const FileContents& contents, StagedFile& staged) {
 
 bool keep_old(StagedFile& staged) {
     if (::link(staged.target.c_str(), staged.kept->path().c_str()) == 0) return true;
-    // Some file systems have no hard links. A folder must not be moved: it is refused when it is replaced.
+    // Some file systems have no hard links. A folder must not be moved: replacing it is refused.
     struct stat status {};
     const bool is_file = errno != ENOENT && ::lstat(staged.target.c_str(), &status) == 0 && S_ISREG(status.st_mode);
     const bool is_lost = is_file && ::rename(staged.target.c_str(), staged.kept->path().c_str()) != 0;

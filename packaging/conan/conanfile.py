@@ -20,7 +20,7 @@ class Bendy(ConanFile):
 
     def export_sources(self):
         root = Path(self.recipe_folder).parents[1]
-        for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "format/*", "runtime/*", "capi/*", "packaging/*", "scripts/*"):
+        for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "format/*", "runtime/*", "bindings/c/*", "packaging/*", "scripts/*"):
             copy(self, pattern, src=root, dst=self.export_sources_folder)
 
     def validate(self):

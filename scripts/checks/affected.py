@@ -9,7 +9,7 @@ from pathlib import Path, PurePosixPath
 
 
 def changed_files(root, since):
-    """Files that differ from a revision, those that git does not know yet included."""
+    """Files that differ from a revision, including untracked ones."""
     def names(*arguments):
         done = subprocess.run(["git", *arguments, "-z"], cwd=root, check=True, capture_output=True, text=True)
         return [name for name in done.stdout.split("\0") if name]
@@ -17,7 +17,7 @@ def changed_files(root, since):
 
 
 def may_use(root):
-    """Each folder, and all that it may include, directly or not: the table of tests/architecture."""
+    """Each folder, and all that it may include, directly or indirectly: the table of tests/architecture."""
     spec = importlib.util.spec_from_file_location("check_includes", root / "tests/architecture/check_includes.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -33,7 +33,7 @@ def may_use(root):
 
 
 class Inputs:
-    """Files that something is made of: whole folders, single folders without those below, files, patterns."""
+    """The source files of a target: whole folders, single folders without subfolders, files, patterns."""
 
     def __init__(self):
         self.trees, self.folders, self.files = set(), set(), set()
@@ -50,7 +50,7 @@ class Inputs:
 
 
 class Build:
-    """What a build folder makes and tests."""
+    """The targets and tests of a build folder."""
 
     def __init__(self, root, folder):
         self.root, self.folder, self.allowed = root, folder, may_use(root)
@@ -135,13 +135,13 @@ class Build:
 
 
 def steps_since(root, since, steps):
-    """The steps to run, and a sentence that says why."""
+    """The steps to run, and a sentence with the reason."""
     changed = changed_files(root, since)
     if not changed:
         return [], f"Nothing has changed since {since}."
     folder = root / "build/release"
     if not (folder / "CMakeCache.txt").exists():
-        return steps, "There is no build/release, which knows what depends on what: all steps run. The gate makes it."
+        return steps, "All steps run: build/release, which knows the dependencies, does not exist. The gate makes it."
     build = Build(root, folder)
     inputs = {step.name: build.inputs_of_step(step) for step in steps}
     unknown = [path for path in changed if not any(found.has(path) for found in inputs.values())]

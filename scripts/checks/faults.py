@@ -50,7 +50,7 @@ def steps_by_kind():
     for kind, steps in kinds.items():
         for name in steps:
             if named(name) is None:
-                sys.exit(f"CONTRIBUTING.md: {kind}: there is no step {name}")
+                sys.exit(f"CONTRIBUTING.md: {kind}: unknown step {name}")
     return kinds
 
 
@@ -68,7 +68,7 @@ def make_tree():
 
 
 def is_caught(patch, fields, step):
-    """Whether the step fails in the tree as it is now, with the symptom; its output stays in build/faults."""
+    """Whether the step fails in the current tree, with the symptom; keeps its output in build/faults."""
     command = ["scripts/test.sh", step.name]
     if step.tests and fields["Test"].startswith("^"):
         command += ["--", "-R", fields["Test"]]
@@ -112,7 +112,7 @@ def main():
         sys.exit(f"CONTRIBUTING.md has no line for these kinds: {', '.join(unknown)}")
     make_tree()
     caught, missed, used = Caught(), [], set()
-    # Faults that the same steps find come together, so that a build is made once.
+    # Faults that the same steps find run together, so that a build is made only once.
     for patch in sorted(patches, key=lambda one: (kinds[headers[one]["Kind"]], one.name)):
         fields, began = headers[patch], time.monotonic()
         step = None if options.again else caught.step_of(patch)

@@ -1,4 +1,4 @@
-"""What ctest's JUnit file says: which tests failed, and which skipped something that tests/skipped.txt does not allow."""
+"""Reads ctest's JUnit file: which tests failed, and which skipped something that tests/skipped.txt does not allow."""
 
 import re
 import xml.etree.ElementTree
@@ -19,7 +19,7 @@ def read_allowed(file):
 
 
 def read_results(results, allowed_file):
-    """Names of failed tests, and pairs of the name of a test that skipped something and what it said."""
+    """Names of failed tests, and pairs of the name of a test that skipped something and its message."""
     if not Path(results).exists():
         return [], []
     allowed = read_allowed(allowed_file)

@@ -40,7 +40,7 @@ def git(*arguments, **options):
 
 
 def tree_now():
-    """What the sources are, committed or not: the id of a git tree."""
+    """The id of a git tree of the sources, committed or not."""
     with tempfile.TemporaryDirectory() as folder:
         environment = {**os.environ, "GIT_INDEX_FILE": str(Path(folder, "index"))}
         git("read-tree", "HEAD", env=environment)
@@ -49,7 +49,7 @@ def tree_now():
 
 
 class Passed:
-    """The steps that have passed, each with the tree that it passed on."""
+    """The steps that have passed, each with the tree on which it passed."""
 
     def __init__(self, tree):
         self.tree = tree
@@ -69,14 +69,14 @@ class Passed:
 def environment_of(step):
     environment = dict(os.environ)
     if step.ring == "gate":
-        # The gate downloads nothing: scripts/setup.sh test has.
+        # The gate downloads nothing: scripts/setup.sh test has done so.
         environment |= {"npm_config_offline": "true", "http_proxy": "http://127.0.0.1:9", "https_proxy": "http://127.0.0.1:9"}
         environment.setdefault("BENDY_PLACES", f"{int(git('rev-parse', 'HEAD')[:8], 16) % PLACES}/{PLACES}")
     return environment | step.environment
 
 
 def run_step(step, tests_of_step, ctest_options):
-    """Runs a step's commands and these of its tests; what failed, and the command that runs that alone, or None."""
+    """Runs a step's commands and its tests; returns the failures and the command that runs them alone, or None."""
     environment = environment_of(step)
     for command in step.commands:
         if subprocess.run(command, cwd=ROOT, env=environment, check=False).returncode != 0:
@@ -102,7 +102,7 @@ def run(steps, asked, passed, ctest_options, keep_going):
     for step in steps:
         began = time.monotonic()
         print(f"\n== {clock(began - start)}  {step.name}: {step.what}", flush=True)
-        is_asked = step in asked  # of those that another step needs, only the builds are needed
+        is_asked = step in asked  # of a step that another one needs, only the builds are needed
         failure = run_step(step, step.tests if is_asked else (), ctest_options)
         took = time.monotonic() - began
         times.append((took, step.name, failure is None))
@@ -123,7 +123,7 @@ def run(steps, asked, passed, ctest_options, keep_going):
 
 
 def with_needed(steps):
-    """The steps, each behind those that it needs."""
+    """The steps, each after those that it needs."""
     chosen = []
     for step in steps:
         for one in (*with_needed(map(named, step.needs)), step):
@@ -133,7 +133,7 @@ def with_needed(steps):
 
 
 def choose(options):
-    """The steps that are asked for, in their order."""
+    """The requested steps, in their order."""
     if not options.steps:
         return [step for step in STEPS if step.ring == "gate"]
     if options.steps != ["all"]:
@@ -160,7 +160,7 @@ def parse(arguments):
     options = parser.parse_args(arguments)
     unknown = [name for name in options.steps if name != "all" and named(name) is None]
     if unknown:
-        parser.error(f"there is no step {unknown[0]}: scripts/test.sh --list")
+        parser.error(f"unknown step {unknown[0]}: scripts/test.sh --list shows them")
     if "all" in options.steps and len(options.steps) > 1:
         parser.error("all goes with no other step")
     if (options.since or options.again) and options.steps != ["all"]:

@@ -1,4 +1,5 @@
-"""The steps of the checks, in the order in which they run: the gate first, what fails most often before what takes long."""
+"""The steps of the checks, in the order in which they run: the gate first, and in it those that fail often before those that take
+long."""
 
 import dataclasses
 import os
@@ -18,7 +19,7 @@ class Tests:
 
 @dataclasses.dataclass(frozen=True)
 class Step:
-    """One thing that is checked."""
+    """One check."""
     name: str
     ring: str  # gate, all, or asked: only when it is named
     what: str
@@ -79,6 +80,9 @@ STEPS = (
          needs=("everything",), uses=("bendy", "bendy_python")),
     Step("no-exceptions", "all", "the embeddable part without exceptions and RTTI", (configure("no-exceptions"), build("no-exceptions")),
          uses=("bendy_c",)),
+    Step("least", "all", "the program without X-files, Quake II models, rigging by shape and the viewer",
+         (configure("least"), build("least"), ["build/least/cli/bendy", "convert", "--quiet", "examples/mannequin.glb", "-o", "build/least/mannequin.bendy"]),
+         uses=("bendy",)),
     Step("standard-cpp", "all", "the libraries in the standard language only, by clang with libc++",
          (configure("standard-cpp"), build("standard-cpp")), (Tests("standard-cpp", ("format", "runtime", "capi", "threads")),),
          uses=("bendy_c",)),
@@ -93,16 +97,16 @@ STEPS = (
     Step("witnesses", "all", "exports read by Khronos' validator, three.js, assimp; files by a second reader",
          tests=(Tests("release", ("export", "second_reader")),), needs=("everything",), uses=("spec",)),
     Step("pictures", "all", "the viewer, and pictures beside three.js's", tests=(Tests("release", ("pictures",)),), needs=("everything",)),
-    Step("blender", "all", "the add-on in Blender", tests=(Tests("release", ("blender",)),), needs=("everything",), uses=("blender",)),
+    Step("blender", "all", "the add-on in Blender", tests=(Tests("release", ("blender",)),), needs=("everything",), uses=("bindings/blender",)),
     Step("npm", "all", "the npm package: WebAssembly with and without SIMD, the tools, the page in Chromium", (["scripts/web.sh"],),
-         needs=("build",), uses=("web", "bindings", "bendy_c", "bendy_reports", "scripts/web.sh", "scripts/cross_dependencies.sh", "cmake")),
+         needs=("build",), uses=("bindings", "bendy_c", "bendy_reports", "scripts/web.sh", "scripts/cross_dependencies.sh", "cmake")),
     Step("damage", "all", "every place of the damage tests under AddressSanitizer, and what takes long there",
          (configure("asan-ubsan", "-DBENDY_TESTS_NEEDED=all"), build("asan-ubsan")),
          (Tests("asan-ubsan", ("format", "runtime", "mutation", "exhaustive", "examples")),), environment={"BENDY_PLACES": "0/1"},
          uses=("bendy",)),
     Step("fuzz-long", "all", "every fuzz target for a minute, the libraries that decode instrumented, and the npm package's tools",
          (["scripts/fuzz.sh", "60"], ["node", "tests/fuzz/fuzz_tools.mjs", "60"]), needs=("build", "npm"),
-         uses=("bendy", "tests/fuzz", "scripts/fuzz.sh", "scripts/cross_dependencies.sh", "web")),
+         uses=("bendy", "tests/fuzz", "scripts/fuzz.sh", "scripts/cross_dependencies.sh", "bindings/web")),
     Step("determinism", "all", "the same bytes from g++ and clang++, -O0 and -O2", (["scripts/determinism.sh"],),
          uses=("bendy_converter", "tests/determinism", "scripts/determinism.sh")),
     Step("demo", "all", "what a newcomer runs first", (["scripts/demo.sh"],), uses=("bendy", "scripts/demo.sh", "scripts/setup.sh")),

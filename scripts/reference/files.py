@@ -1,5 +1,5 @@
-"""Which arguments are files, by their extensions, as the help cannot say. Of what is not here, positional arguments and
---output are files of any kind."""
+"""Which arguments are files, by their extensions, which the help does not tell. Positional arguments and --output that
+are not listed here are files of any kind."""
 
 READABLE = "READABLE"  # as its help lists them
 

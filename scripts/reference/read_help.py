@@ -29,7 +29,7 @@ class Option:
 
     @property
     def value(self):
-        """What stands for the value on a page."""
+        """The placeholder for the value on a page."""
         if self.choices:
             return "|".join(self.choices)
         if self.files is not None:
@@ -38,12 +38,12 @@ class Option:
 
     @property
     def brief(self):
-        """The beginning of what it does, for a menu."""
+        """The first part of the description, for a menu."""
         return self.about.split(";")[0]
 
     @property
     def notes(self):
-        """What its line says beside what it does, as sentences without a stop."""
+        """The notes on its line other than its description, as sentences without a full stop."""
         notes = []
         if self.default:
             notes.append(f"Default: {self.default}")
@@ -73,7 +73,7 @@ class Command:
 
     @property
     def usage(self):
-        """What follows `bendy`."""
+        """The usage after `bendy`."""
         if self.commands:
             return "COMMAND [OPTIONS] ..."
         words = [self.name, "[OPTIONS]"]
@@ -96,7 +96,7 @@ class Command:
 
 
 SECTIONS = {"Positionals:": "arguments", "Options:": "options", "Subcommands:": "commands"}
-COLUMN = 30  # where CLI11 begins what an option does
+COLUMN = 30  # where CLI11 begins the description of an option
 
 # The left side of an option's line: names, TYPE:{a,b}=default, ..., REQUIRED, Needs: ..., Excludes: ...
 LEFT = re.compile(r"""(?P<names>\S+)
@@ -111,7 +111,7 @@ LEFT = re.compile(r"""(?P<names>\S+)
 
 
 class UnknownHelp(Exception):
-    """The program's help has a form that this reader does not know."""
+    """The program's help has a form that this reader does not support."""
 
 
 def read_program(program):
@@ -126,7 +126,7 @@ def read_program(program):
 
 
 def _readable(commands):
-    """The suffixes of what `bendy convert` reads: its help has them in brackets."""
+    """The suffixes that `bendy convert` reads: its help lists them in brackets."""
     for command in commands:
         if command.name == "convert":
             return re.search(r"\((\..*?)\)", command.about)[1].split(", ")
@@ -162,7 +162,7 @@ def _help(program, *command):
 
 
 def _split(line, following):
-    """What stands left and right of the column; what is too long for the left has its right side on the following line."""
+    """The text left and right of the column; if the left one is too long, the right one is on the following line."""
     if following.startswith(" " * COLUMN):
         return line.strip(), following.strip()
     return line[:COLUMN].strip(), line[COLUMN:].strip()

@@ -1,4 +1,4 @@
-"""Completion for bash; it needs nothing but bash."""
+"""Completion for bash, without other programs."""
 
 HEADER = """# Completion of bendy's commands, options, choices and files. Made by scripts/make_reference.py.
 

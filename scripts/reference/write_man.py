@@ -58,7 +58,7 @@ def _see_also(names):
 
 
 def _text(text):
-    """As roff takes it; what is quoted by backticks becomes bold."""
+    """Escapes text for roff; text in backticks becomes bold."""
     text = text.replace("\\", r"\e").replace("-", r"\-")
     text = re.sub(r"`([^`]*)`", r"\\fB\1\\fR", text)
     return "\\&" + text if text.startswith((".", "'")) else text

@@ -11,7 +11,7 @@ import sys
 
 FUNCTION = re.compile(r"^[0-9a-f]+ <(.*)>:\n((?:.+\n)*)", re.M)
 # What is called through the tables of kernels takes a block of plain data; functions that take registers are part of a kernel.
-KERNEL = re.compile(r"(_with_avx2::|_avx2\().*\(bendy::\w+Block(?: const)?&\)$")
+KERNEL = re.compile(r"(with_avx2::|_avx2\().*\(bendy::\w+Block(?: const)?&\)$")
 
 
 def main():

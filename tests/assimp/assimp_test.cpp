@@ -1,8 +1,8 @@
 // An outside witness: assimp opens the X-files that we write, and its world positions are held against evaluate(),
 // which knows nothing of X-files.
 #include "converter/posed_scene.h"
-#include "evaluate.h"
-#include "frame_shapes.h"
+#include "scene/evaluate.h"
+#include "scene/frame_shapes.h"
 #include "source_folder.h"
 
 #include <bendy/converter/build_chunks.h>

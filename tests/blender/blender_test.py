@@ -113,8 +113,8 @@ def check_records(runner, folder):
 
 def check_zip(runner, folder):
     """What the preferences install: all modules, and the manifest, which says what __init__.py says."""
-    subprocess.run([runner.source / "blender" / "make_zip.sh", folder], check=True)
-    package = runner.source / "blender" / "bendy_rig"
+    subprocess.run([runner.source / "bindings" / "blender" / "make_zip.sh", folder], check=True)
+    package = runner.source / "bindings" / "blender" / "bendy_rig"
     with zipfile.ZipFile(folder / "bendy_rig.zip") as archive:
         names = set(archive.namelist())
         manifest = tomllib.loads(archive.read("bendy_rig/blender_manifest.toml").decode())
@@ -154,7 +154,7 @@ def check_files(runner, folder, bendy, corpus):
     else:
         print("no corpus: the examples only")
     runner.run("round trips", tests / "check_round_trip.py", bendy.program, out, *files)
-    runner.run("the block of README.md", tests / "check_readme.py", bendy.program, runner.source / "README.md", folder)
+    runner.run("the block of docs/languages.md", tests / "check_languages.py", bendy.program, runner.source / "docs/languages.md", folder)
     (folder / "errors").mkdir()
     runner.run("import errors", tests / "check_import_errors.py", bendy.program, files[0], runner.source / "examples" / "tentacle.glb",
                folder / "errors")

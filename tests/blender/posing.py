@@ -11,7 +11,7 @@ from mathutils import Quaternion, Vector
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.join(HERE, '..', '..')
 sys.dont_write_bytecode = True
-sys.path[:0] = [HERE, os.path.join(ROOT, 'blender'), os.path.join(ROOT, 'examples', 'blender')]
+sys.path[:0] = [HERE, os.path.join(ROOT, 'bindings', 'blender'), os.path.join(ROOT, 'examples', 'blender')]
 TOLERANCE = 1e-4                    # radians
 
 

@@ -129,7 +129,7 @@ TEST_F(CArguments, MemoryThatIsTooShortIsAnErrorAndUntouched) {
     out.capacity = 10;
     out.position_stride = 8;
     EXPECT_EQ(message(bendy_skin(pose_.get(), nullptr, &out, &error_)),
-              "positions: a stride of 8 bytes is no multiple of 4 that holds 3 floats");
+              "positions: a stride of 8 bytes is not a multiple of 4 that holds 3 floats");
     out.position_stride = 14;
     message(bendy_skin(pose_.get(), nullptr, &out, &error_));
     out.position_stride = std::numeric_limits<std::size_t>::max() - 3;

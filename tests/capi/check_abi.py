@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds libbendy against capi/abi.txt, what programs have been built against: check_abi.py --header H --library SO --list TXT --cc CC
+"""Holds libbendy against bindings/c/abi.txt, what programs have been built against: check_abi.py --header H --library SO --list TXT --cc CC
 
 The functions that the library shows, with their symbol versions, and that the header declares; the sizes of structs, places of fields
 and values of constants, as a C compiler has them (64-bit machines). --renew writes the list. What stands in it after a release may be

@@ -166,7 +166,7 @@ def in_cpp(source):
 
 def in_c(source):
     """({names}, {struct: fields}, {enumeration: number of values}) of bendy.h."""
-    text = re.sub(r"/\*.*?\*/", "", (source / "capi/include/bendy.h").read_text(), flags=re.S)
+    text = re.sub(r"/\*.*?\*/", "", (source / "bindings/c/include/bendy.h").read_text(), flags=re.S)
     names = set(re.findall(r"^BENDY_API [^;(]*?(bendy_\w+)\(", text, re.M))
     names |= set(re.findall(r"^#define (BENDY_\w+)", text, re.M)) | set(re.findall(r"^typedef struct \w+ (\w+);", text, re.M))
     names |= set(re.findall(r"^typedef void \(\*(\w+)\)", text, re.M))

@@ -13,10 +13,10 @@ EXCEPTION = re.compile(r"(Only for C|Not in JavaScript): \w")
 
 
 def main():
-    sources = "".join(path.read_text(encoding="utf-8") for path in sorted((SOURCE / "web/src").glob("*.ts")))
+    sources = "".join(path.read_text(encoding="utf-8") for path in sorted((SOURCE / "bindings/web/src").glob("*.ts")))
     called = set(re.findall(r"\bbendy_\w+", sources))
     faults = []
-    for function in describe.read(SOURCE / "capi/include/bendy.h").functions.values():
+    for function in describe.read(SOURCE / "bindings/c/include/bendy.h").functions.values():
         is_exception = EXCEPTION.search(function.doc) is not None
         if function.name not in called and not is_exception:
             faults.append(f"{function.name}: JavaScript has no call of it, and its comment does not say why")

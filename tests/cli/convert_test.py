@@ -54,7 +54,7 @@ class Convert(Case):
         self.assertIn(b"error at most", self.done("inspect", "small.bendy"))
         self.done("convert", source, "-o", "coarse.bendy", "--max-error", "1mm")
         self.assertLess((self.folder / "coarse.bendy").stat().st_size, sizes["small"])
-        for bound, words in (("0.1", "no unit"), ("1in", "no unit of"), ("-1mm", "not above zero"), ("much", "no error bound")):
+        for bound, words in (("0.1", "no unit"), ("1in", "unknown unit"), ("-1mm", "not above zero"), ("much", "not an error bound")):
             self.assertIn(words, self.misused("convert", source, "--max-error", bound))
 
     def test_the_summary_says_what_is_in_the_file(self):

@@ -152,7 +152,7 @@ class Kept(Case):
             self.assertEqual(self.edited(file, "--strip", "target:Face_1"), said)
             now = self.edited(file, "--strip", "target:Face_2")
             self.assertEqual(now, {**said, "expression": ["Teeth_1"]})
-            self.assertIn("taken out of extensions, because what they name is not there any more: VRM", self.told)
+            self.assertIn("removed from extensions, because the things that they name no longer exist: VRM", self.told)
 
     def test_a_mesh_that_goes(self):
         for version in (0, 1):

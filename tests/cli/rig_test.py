@@ -89,7 +89,7 @@ class Rig(Case):
         self.assertRegex(self.refused('{\n  "bendy_rig" 1}'), r"^invalid JSON at line 2, column 15 \(byte \d+\): ")
         self.assertIn("nested deeper", self.refused('{"bendy_rig": ' + "[" * 100_000))
         self.assertIn("1e+400", self.refused('{"bendy_rig": 1e+400}'))
-        self.assertIn("there is no text", self.refused(""))
+        self.assertIn("the text is empty", self.refused(""))
         self.assertNotIn("\x1b", self.refused({"bendy_rig": 1, "joints": {"\x1b[31m[": {}}}))
 
     def test_rig_files_that_cannot_be_read_are_named(self):
@@ -151,7 +151,7 @@ class Schema(Case):
             if key in curve:
                 rigs.append({"bendy_rig": 1, "curves": [{k: v for k, v in curve.items() if k != key}]})
         # What a schema cannot say: joints that are there, lists that go with others, ranges in order that hold 0 where they must, no zero rotation.
-        beyond = re.compile(r"there is no joint|nor above it|is above the maximum|must hold 0|is no rotation|no such joint"
+        beyond = re.compile(r"there is no joint|nor above it|is above the maximum|must hold 0|is not a rotation|no such joint"
                             r"|expected (a time after|\d+ numbers|a JSON pointer)")
         agreed = {True: 0, False: 0}
         for rig in rigs:

@@ -1,4 +1,4 @@
-#include "passes/mesh_order.h"
+#include "optimise/passes/mesh_order.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "passes/auto_skin.h"
+#include "optimise/passes/auto_skin.h"
 
-#include "evaluate.h"
 #include "gltf/build_gltf.h"
 #include "posed_scene.h"
 #include "rig/build_scene.h"
+#include "scene/evaluate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "collapse/collapse_vertices.h"
+#include "optimise/collapse/collapse_vertices.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/format/document.h>

@@ -1,4 +1,4 @@
-#include "evaluate.h"
+#include "scene/evaluate.h"
 
 #include "converter/posed_scene.h"
 #include "format/sample_file.h"

@@ -1,4 +1,4 @@
-#include "in_parallel.h"
+#include "scene/in_parallel.h"
 
 #include <gtest/gtest.h>
 

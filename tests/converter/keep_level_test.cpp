@@ -1,6 +1,6 @@
-#include "passes/mesh_order.h"
+#include "optimise/passes/mesh_order.h"
 
-#include "failure.h"
+#include "scene/failure.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
-#include "measure_error.h"
+#include "optimise/measure_error.h"
 
 #include "converter/posed_scene.h"
-#include "evaluate.h"
+#include "scene/evaluate.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>

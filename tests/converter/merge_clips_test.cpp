@@ -1,4 +1,4 @@
-#include "passes/merge_clips.h"
+#include "optimise/passes/merge_clips.h"
 
 #include <gtest/gtest.h>
 

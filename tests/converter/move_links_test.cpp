@@ -1,4 +1,4 @@
-#include "source/source_file.h"
+#include "scene/source/source_file.h"
 
 #include "temporary_folder.h"
 

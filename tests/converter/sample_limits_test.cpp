@@ -1,7 +1,7 @@
-#include "sample_limits.h"
+#include "optimise/sample_limits.h"
 
-#include "compact/grid.h"
-#include "compact/measure.h"
+#include "optimise/compact/grid.h"
+#include "optimise/compact/measure.h"
 
 #include <gtest/gtest.h>
 

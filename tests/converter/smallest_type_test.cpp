@@ -1,4 +1,4 @@
-#include "stored_numbers.h"
+#include "scene/stored_numbers.h"
 
 #include <gtest/gtest.h>
 

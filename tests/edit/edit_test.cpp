@@ -144,7 +144,7 @@ TEST(Strip, CurvesAreRenumberedOrGoWithTheirTargets) {
     EXPECT_EQ(curves[1].name, "curve 2");
     EXPECT_EQ(curves[1].target, 1u);
     ASSERT_EQ(log.warnings.size(), 1u);
-    EXPECT_TRUE(log.warnings[0].starts_with("CURV \"curve 1\" goes with its texture, ")) << log.warnings[0];
+    EXPECT_TRUE(log.warnings[0].starts_with("CURV \"curve 1\" is removed with its texture, ")) << log.warnings[0];
 }
 
 TEST(Strip, AClipWithoutTracksStaysForItsCurves) {

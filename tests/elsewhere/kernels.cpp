@@ -12,14 +12,10 @@ namespace {
 
 #if defined(__aarch64__)
 constexpr const char* kName = "neon";
-constexpr auto* kKernel = skin_neon;
-constexpr auto* kDualKernel = dual_neon;
-constexpr const PoseKernels& kPoseKernels = kPoseNeon;
+constexpr const KernelTable& kKernels = kNeonTable;
 #elif defined(__wasm_simd128__)
 constexpr const char* kName = "wasm";
-constexpr auto* kKernel = skin_wasm;
-constexpr auto* kDualKernel = dual_wasm;
-constexpr const PoseKernels& kPoseKernels = kPoseWasm;
+constexpr const KernelTable& kKernels = kWasmTable;
 #endif
 
 test::SkinErrors errors_of_any_counts() {
@@ -27,7 +23,7 @@ test::SkinErrors errors_of_any_counts() {
     for (const std::size_t vertices : {0U, 1U, 2U, 3U, 4U, 5U, 7U, 8U, 9U, 31U, 64U, 101U}) {
         for (std::size_t influences = 1; influences <= 10; ++influences) {
             test::RandomBlock random(vertices, influences, static_cast<unsigned>(vertices * 100 + influences));
-            errors.add(test::errors_of(random, kKernel, 3, 3, 4));
+            errors.add(test::errors_of(random, kKernels.skin, 3, 3, 4));
         }
     }
     return errors;
@@ -39,7 +35,7 @@ test::SkinErrors errors_of_any_strides() {
         for (const std::size_t normals : {0U, 3U, 11U}) {
             for (const std::size_t tangents : {0U, 4U, 9U}) {
                 test::RandomBlock random(29, 4, 11);
-                errors.add(test::errors_of(random, kKernel, positions, normals, tangents));
+                errors.add(test::errors_of(random, kKernels.skin, positions, normals, tangents));
             }
         }
     }
@@ -52,10 +48,10 @@ test::SkinErrors errors_of_wide_bones_and_one_matrix() {
         test::RandomBlock random(45, influences, 7);
         random.block.bones8 = nullptr;
         random.block.bones16 = random.bones16.data();
-        errors.add(test::errors_of(random, kKernel, 3, 3, 4));
+        errors.add(test::errors_of(random, kKernels.skin, 3, 3, 4));
         random.block.bones16 = nullptr;
         random.block.weights = nullptr;
-        errors.add(test::errors_of(random, kKernel, 3, 3, 4));
+        errors.add(test::errors_of(random, kKernels.skin, 3, 3, 4));
     }
     return errors;
 }
@@ -76,9 +72,9 @@ bool skins_by_duals() {
         for (const std::size_t vertices : {0U, 1U, 3U, 4U, 5U, 9U, 64U, 101U}) {
             for (std::size_t influences = 1; influences <= 10; ++influences) {
                 test::RandomBlock random(vertices, influences, static_cast<unsigned>(vertices * 100 + influences));
-                errors.add(test::dual_errors_of(random, is_stretched, kDualKernel, 3, 3, 4));
-                errors.add(test::dual_errors_of(random, is_stretched, kDualKernel, 3, 3, 0));
-                errors.add(test::dual_errors_of(random, is_stretched, kDualKernel, 4, 0, 9));
+                errors.add(test::dual_errors_of(random, is_stretched, kKernels.dual, 3, 3, 4));
+                errors.add(test::dual_errors_of(random, is_stretched, kKernels.dual, 3, 3, 0));
+                errors.add(test::dual_errors_of(random, is_stretched, kKernels.dual, 4, 0, 9));
             }
         }
     }
@@ -89,7 +85,7 @@ bool skins_by_duals() {
 }
 
 bool poses() {
-    const test::PoseErrors errors = test::PoseComparison(kPoseKernels).run();
+    const test::PoseErrors errors = test::PoseComparison(kKernels).run();
     std::printf(
         "%s: posing: pose %.2f, palette %.2f, sample %.2f, unpack %.2f, mix %.2f, add %.2f, decode %.2f units "
         "in the last place%s%s\n",
@@ -103,7 +99,7 @@ bool keeps_zeros() {
     test::RandomBlock random(24, 4, 5);
     for (std::size_t k = 0; k < 3 * 24; ++k) random.normals.data()[k] = 0.0f;
     test::Output out(random.block, 0, 3, 0);
-    kKernel(random.block);
+    kKernels.skin(random.block);
     bool are_zero = true;
     for (std::size_t k = 0; k < 3 * 24; ++k) are_zero = are_zero && out.normals.data()[k] == 0.0f;
     return are_zero;

@@ -1,9 +1,9 @@
 // Rig files: an error with its place, or a rig.
 #include <bendy/converter/report.h>
 
-#include "failure.h"
 #include "mutators.h"
-#include "rig/parse_rig.h"
+#include "rigging/rig/parse_rig.h"
+#include "scene/failure.h"
 
 #include <cstddef>
 #include <cstdint>

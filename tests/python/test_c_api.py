@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT / "bindings"))
 from describe import read  # noqa: E402
 from make_python import Maker, bare, pascal  # noqa: E402
 
-HEADER = ROOT / "capi/include/bendy.h"
+HEADER = ROOT / "bindings/c/include/bendy.h"
 STUB = Path(bendy._bendy.__file__).with_name("_c.pyi")
 
 
@@ -76,7 +76,7 @@ def test_a_new_option_reaches_python(tmp_path):
     header = re.sub(r"(#define BENDY_REACH_OPTIONS_INIT \\\n.*?) \}\n", r"\1, 0 }\n", header)
     (tmp_path / "bendy.h").write_text(header, encoding="utf-8")
     maker = Maker(read(tmp_path / "bendy.h"))
-    expanded = maker.expand((ROOT / "python/bendy/_pose.py").read_text(encoding="utf-8"))
+    expanded = maker.expand((ROOT / "bindings/python/bendy/_pose.py").read_text(encoding="utf-8"))
     assert "is_lazy: bool = False)" in expanded and "is_lazy: True: stops early." in expanded and "carry_target, is_lazy)" in expanded
     assert "offsetof(bendy_reach_options, is_lazy)" in maker.source() and "def is_lazy(self) -> bool:" in maker.stub()
 

@@ -21,7 +21,7 @@ def public(names):
 
 
 def test_stubs_have_what_the_module_has():
-    stub = ast.parse((ROOT / "python/bendy/_bendy.pyi").read_text())
+    stub = ast.parse((ROOT / "bindings/python/bendy/_bendy.pyi").read_text())
     declared = {node.name: node for node in stub.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
     assert public(declared) - OPTIONAL == public(vars(bendy._bendy)) - OPTIONAL - {"has_viewer", "c"}  # that has a stub of its own
     for name, node in declared.items():
@@ -69,7 +69,7 @@ def test_the_pipeline_example(tmp_path):
     assert again.returncode == 2 and "overwrite" in again.stderr
 
 
-@pytest.mark.parametrize("page", ["docs/python.md", "README.md"])
+@pytest.mark.parametrize("page", ["docs/python.md", "docs/languages.md"])
 def test_the_documentations_blocks_run(page, tmp_path):
     blocks = re.findall(r"^```python\n(.*?)^```$", (ROOT / page).read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
     assert blocks

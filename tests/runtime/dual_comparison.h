@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/dual_plain.h"
+#include "kernels/plain.h"
 #include "runtime/skin_comparison.h"
 
 #include <algorithm>

@@ -16,7 +16,7 @@ using test::Tried;
 /// All but the plain one, which they are held against.
 std::vector<Tried> tried() {
     std::vector<Tried> all = test::tried_kernels();
-    std::erase_if(all, [](const Tried& kernel) { return kernel.run.linear == skin_plain; });
+    std::erase_if(all, [](const Tried& kernel) { return kernel.linear == skin_plain; });
     return all;
 }
 
@@ -24,7 +24,7 @@ void compare(RandomBlock& random, const Tried& kernel, std::size_t positions, st
              std::size_t tangents) {
     for (const bool is_stretched : {false, true}) {
         const test::DualErrors errors =
-            test::dual_errors_of(random, is_stretched, kernel.run.dual, positions, normals, tangents);
+            test::dual_errors_of(random, is_stretched, kernel.dual, positions, normals, tangents);
         EXPECT_TRUE(errors.are_small()) << kernel.name << ", " << random.block.vertices << " vertices of "
                                         << random.block.influences << (is_stretched ? ", stretched" : "")
                                         << ": positions " << errors.positions << " units in the last place, directions "
@@ -35,7 +35,7 @@ void compare(RandomBlock& random, const Tried& kernel, std::size_t positions, st
 
 TEST(DualKernels, AllAgreeWithThePlainOneWhateverTheCounts) {
     for (const Tried& kernel : tried()) {
-        ASSERT_NE(kernel.run.dual, nullptr) << kernel.name;
+        ASSERT_NE(kernel.dual, nullptr) << kernel.name;
         for (const std::size_t vertices : {0u, 1u, 3u, 4u, 5u, 7u, 8u, 9u, 15u, 16u, 17u, 31u, 64u, 65u, 101u}) {
             for (std::size_t influences = 1; influences <= 10; ++influences) {
                 RandomBlock random(vertices, influences, static_cast<unsigned>(vertices * 100 + influences));

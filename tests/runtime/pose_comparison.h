@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/pose_kernels.h"
+#include "kernels/kernel_table.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
@@ -42,7 +42,7 @@ struct PoseErrors {
 
 class PoseComparison {
 public:
-    explicit PoseComparison(const PoseKernels& kernels) : kernels_(kernels) {}
+    explicit PoseComparison(const KernelTable& kernels) : kernels_(kernels) {}
 
     PoseErrors run() {
         for (const std::size_t joints : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 16u, 31u}) {
@@ -570,7 +570,7 @@ private:
         }
     }
 
-    const PoseKernels& kernels_;
+    const KernelTable& kernels_;
     std::mt19937 random_{12};
     std::uniform_real_distribution<float> numbers_{-1.0f, 1.0f};
     PoseErrors errors_;

@@ -13,7 +13,7 @@ TEST(PoseKernels, AreWithinTheirBoundsOfDoubles) {
     const Kernel before = kernel();
     for (const Kernel each : kernels()) {
         ASSERT_TRUE(set_kernel(each));
-        const PoseKernels* const functions = pose_kernels();
+        const KernelTable* const functions = kernel_table();
         if (each == Kernel::plain) {
             EXPECT_EQ(functions, nullptr);  // in doubles itself
             continue;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plan/skin_block.h"
+#include "plan/blocks.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>

@@ -31,7 +31,7 @@ using test::tried_kernels;
 
 void compare(RandomBlock& random, const Tried& kernel, std::size_t positions, std::size_t normals,
              std::size_t tangents) {
-    const test::SkinErrors errors = test::errors_of(random, kernel.run.linear, positions, normals, tangents);
+    const test::SkinErrors errors = test::errors_of(random, kernel.linear, positions, normals, tangents);
     EXPECT_TRUE(errors.are_small()) << kernel.name << ", " << random.block.vertices << " vertices of "
                                     << random.block.influences << ": positions " << errors.positions
                                     << " units in the last place, directions " << errors.directions
@@ -152,7 +152,7 @@ TEST(SkinKernels, WritingPastTheCachesWritesTheSame) {
             SkinBlock block = random.block;
             block.streams = out == &past;
             block.out_positions = {&out->front().x, 3};
-            kernel.run.linear(block);
+            kernel.linear(block);
         }
         EXPECT_EQ(near, past);
     }
@@ -164,7 +164,7 @@ TEST(SkinKernels, DirectionsWithoutLengthStayZero) {
         for (std::size_t k = 0; k < 3 * 24; ++k) random.normals.data()[k] = 0.0f;
         for (std::size_t k = 0; k < 4 * 24; ++k) random.tangents.data()[k] = 0.0f;
         Output out(random.block, 0, 3, 4);
-        kernel.run.linear(random.block);
+        kernel.linear(random.block);
         for (std::size_t k = 0; k < 3 * 24; ++k) EXPECT_EQ(out.normals.data()[k], 0.0f);
         for (std::size_t k = 0; k < 4 * 24; ++k) EXPECT_EQ(out.tangents.data()[k], 0.0f);
     }

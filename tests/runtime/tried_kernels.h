@@ -1,6 +1,9 @@
 #pragma once
 
-#include "kernels/skin_kernel.h"
+#include "kernels/kernel_table.h"
+#include "kernels/plain.h"
+
+#include <bendy/runtime/kernels.h>
 
 #include <string>
 #include <vector>
@@ -12,13 +15,18 @@ namespace test {
 /// Kernels that are tested.
 struct Tried {
     std::string name;
-    SkinKernels run;
+    SkinKernel* linear;
+    DualKernel* dual;  ///< null for the plain one: see dual_plain
 };
 
 /// All that this machine has, the plain one too.
 inline std::vector<Tried> tried_kernels() {
     std::vector<Tried> all;
-    for (const Kernel kernel : kernels()) all.push_back({std::string(kernel_name(kernel)), skin_kernels(kernel)});
+    for (const Kernel kernel : kernels()) {
+        const KernelTable* const table = kernel_table(kernel);
+        all.push_back({std::string(kernel_name(kernel)), table == nullptr ? skin_plain : table->skin,
+                       table == nullptr ? nullptr : table->dual});
+    }
     return all;
 }
 

@@ -1,7 +1,7 @@
 #include "play/unpack.h"
 
 #include "kernels/flush_denormals.h"
-#include "plan/joint_blocks.h"
+#include "plan/layout.h"
 #include "plan/unpack_plan.h"
 
 #include <bendy/runtime/kernels.h>

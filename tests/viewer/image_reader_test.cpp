@@ -139,7 +139,7 @@ TEST(ImageReader, OtherFormatsAreNamed) {
     EXPECT_EQ(read_image({}, kPlenty).problem, "is neither PNG, JPEG, WebP, BMP nor TGA");
     const unsigned char jpeg[] = {0xff, 0xd8, 0xff, 0xe0, 0, 16};
     const std::string problem = read_image(std::as_bytes(std::span(jpeg)), kPlenty).problem;
-    EXPECT_EQ(problem.find("is no good JPEG: "), 0u) << problem;
+    EXPECT_EQ(problem.find("is not a valid JPEG: "), 0u) << problem;
 }
 
 }  // namespace

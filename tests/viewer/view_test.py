@@ -127,8 +127,8 @@ class Render(WithFolder):
         for options in (["--lod", "0.5"], ["--lod", "0", "--frames", "2"]):
             done = bendy("render", self.folder / "tentacle.bendy", "-o", self.folder / "o.png", "--size", "16x16", *options)
             self.assertEqual(done.returncode, 0)
-            self.assertEqual(done.stderr, f"bendy: warning: {self.folder}/tentacle.bendy: there are no levels of detail in "
-                             "it: it stays whole (bendy convert --lod makes them)\n")
+            self.assertEqual(done.stderr, f"bendy: warning: {self.folder}/tentacle.bendy: the file has no levels of detail: "
+                             "full detail is used (bendy convert --lod makes them)\n")
 
     def test_contact_sheet(self):
         sheet = self.render("tentacle", "--frames", "5", "--size", "40x30")

@@ -271,7 +271,7 @@ std::uint32_t solve_least_squares(IkProblem& problem) {
     problem.save();
     const auto descend = [&] {
         iterations += method.descend(most);
-        // Of two nearly equal results the first counts: rounding must not choose between them.
+        // If two results are nearly equal, the first counts: rounding must not choose between them.
         constexpr double kNearer = 0.99;
         if (!problem.is_reached() && problem.cost() >= kNearer * best) return;
         best = problem.cost();

@@ -2,7 +2,7 @@
 
 #include "ik_problem.h"
 #include "math/nearest_rotation.h"
-#include "plan/two_bone_block.h"
+#include "plan/blocks.h"
 #include "pose/pose_state.h"
 
 #include <bendy/format/public.h>
@@ -67,7 +67,7 @@ BENDY_ALWAYS_INLINE Vector vector_of(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
-/// Sets the numbers of one of several limbs.
+/// Sets the numbers of one limb in a set of limbs.
 template <std::size_t numbers, std::size_t limbs, class Numbers>
 BENDY_ALWAYS_INLINE void put(const Numbers& from, double (&to)[numbers][limbs], std::size_t limb) {
     for (std::size_t c = 0; c < numbers; ++c) to[c][limb] = from[static_cast<int>(c)];
@@ -86,7 +86,7 @@ public:
     BENDY_ALWAYS_INLINE bool is_there() const { return constraint_ != nullptr; }
     BENDY_ALWAYS_INLINE bool is_hinge() const { return is_there() && constraint_->model == ConstraintModel::hinge; }
     [[nodiscard]] bool prefers_back() const { return bendy::prefers_back(constraint_); }
-    /// True if it only restricts which rotations are legal.
+    /// Returns true if it only restricts which rotations are legal.
     BENDY_ALWAYS_INLINE bool is_plain() const { return !is_there() || says_rotations_only(); }
     /// Computes the only axis about which the joint bends, in the parent's space, for a unit rotation; returns false if
     /// there are others.
@@ -104,8 +104,8 @@ public:
         return wider != glm::dvec3(0.0);
     }
 
-    /// Turns a unit rotation, which the limits do not hold, about a unit axis until they do; returns false if no turn
-    /// does that.
+    /// Rotates a unit rotation that is outside the limits about a unit axis until it is inside; returns false if no
+    /// angle does that.
     bool swivel(glm::dquat& local, const glm::dvec3& axis) const {
         const double half = 0.5 * best_swivel(*constraint_, *rest_frame_, local, axis);
         const trig::SinCos turn = trig::sin_cos(half);
@@ -114,7 +114,7 @@ public:
     }
 
     enum class Side : std::uint8_t { inside, edge, outside };
-    /// Returns on which side of the limits a unit rotation is; the edge is what rounding could put on either side.
+    /// Returns on which side of the limits a unit rotation is; "edge" if rounding could decide.
     BENDY_ALWAYS_INLINE Side side(const glm::dquat& local) const {
         return is_there() ? find_side(local) : Side::inside;
     }
@@ -156,7 +156,7 @@ struct LimbLimits {
     LinkConstraint upper, lower, end;
 };
 
-/// Where a chain's pole is.
+/// The position of a chain's pole.
 struct Pole {
     bool is_there = false, is_point = false;
     glm::dvec3 place{0.0};  ///< in model space if it is a point, otherwise a direction in base space
@@ -175,8 +175,8 @@ BENDY_ALWAYS_INLINE float tolerance_of(const Chain& chain, const ReachOptions& o
     return tolerance > 0.0f ? tolerance : 0.0f;
 }
 
-/// Bends by the smaller rotation, or by the other one about a fixed axis, and returns on which side of the limits that
-/// is; the edge if no rotation is clear.
+/// Bends by the smaller rotation, or by the other one about a fixed axis, and returns on which side of the limits the
+/// result is; "edge" if no rotation is clearly on one side.
 BENDY_ALWAYS_INLINE LinkConstraint::Side bend_middle(const LinkConstraint& limit, const Limb& limb, Bend& bend,
                                                      Turn& turn, Reaching& reach) {
     using Side = LinkConstraint::Side;
@@ -277,7 +277,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
     return ReachResult{ReachStatus::aimed, static_cast<float>(std::sqrt(squared(in_model))), 0.0f, 1};
 }
 
-/// Whether only a position is asked for, by all of the chain's own means.
+/// Returns true if only a position is requested, including the chain's own settings.
 bool is_plain(const Chain& chain, const ReachTarget& target, const Pose& pose, const ReachOptions& options) {
     const ChainRecord& record = chain.record;
     return options.influence == 1.0f && options.softness == 0.0f && !target.rotation && !(record.stretch > 0.0f) &&

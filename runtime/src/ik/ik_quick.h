@@ -2,7 +2,7 @@
 
 #include <bendy/runtime/ik.h>
 
-#include "plan/two_bone_block.h"
+#include "plan/blocks.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -18,7 +18,7 @@ namespace bendy {
 std::optional<ReachResult> reach_quickly(const Chain& chain, const ReachTarget& target, Pose& pose,
                                          const ReachOptions& options);
 
-/// Whether a chain is of two bones that reach_quickly may solve.
+/// Returns true if a chain consists of two bones that reach_quickly may solve.
 bool is_plain_limb(const Chain& chain, const ReachTarget& target, const Pose& pose, const ReachOptions& options);
 
 /// Reads such a chain's joints and target into one of the limbs; returns false if reach_quickly would not solve it.
@@ -28,11 +28,11 @@ bool gather_limb(const Chain& chain, const ReachTarget& target, Pose& pose, cons
 extern template bool gather_limb(const Chain&, const ReachTarget&, Pose&, const ReachOptions&,
                                  TwoBoneLimbs<TwoBoneBlock::kLimbs>&, std::size_t);
 
-/// Whether such a chain's limits hold rotations of its start and its middle joint.
+/// Returns true if such a chain's limits allow these rotations of its start and its middle joint.
 bool are_legal(const Chain& chain, const Pose& pose, const ReachOptions& options, const glm::dquat& upper,
                const glm::dquat& lower);
 
-/// What reach does with a chain that has no fast path; the target's numbers are finite.
+/// Reaches with a chain that has no fast path, for a target with finite numbers.
 ///
 /// Returns nothing, and leaves the pose unchanged, if a number in the pose, the chain or the target is not finite.
 std::optional<ReachResult> reach_at_length(const Chain& chain, const ReachTarget& target, Pose& pose,

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-// The swivel of two bones: their start turns about the line to the target, until its limits hold it.
+// The swivel of two bones: their start rotates about the line to the target, until it is inside its limits.
 namespace bendy {
 namespace {
 

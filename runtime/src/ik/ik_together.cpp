@@ -1,7 +1,7 @@
 #include <bendy/runtime/ik.h>
 
 #include "ik_quick.h"
-#include "kernels/pose_kernels.h"
+#include "kernels/kernel_table.h"
 #include "math/rigid_part.h"
 #include "pose/pose_state.h"
 
@@ -12,7 +12,8 @@
 #include <cstdint>
 #include <utility>
 
-// Several chains: those of two bones are solved side by side where none of them moves what another one depends on.
+// Several chains: those of two bones are solved side by side if none of them moves something that another one depends
+// on.
 namespace bendy {
 namespace {
 
@@ -23,16 +24,16 @@ public:
         : pose_(pose),
           results_(results),
           ends_(PoseState::of(pose).data->pose_plan->subtree_ends),
-          kernels_(pose_kernels()) {}
+          kernels_(kernel_table()) {}
 
-    /// Solves a request now or with later ones.
+    /// Solves a request now or together with later ones.
     void add(const ReachRequest& request, std::size_t number) {
         if (add_limb(request, number)) return;
-        solve();  // what this one depends on
+        solve();  // a pending chain moves what this one depends on
         if (!add_limb(request, number)) solve_alone(request, number);
     }
 
-    /// Whether a chain that is still to be solved moves a joint.
+    /// Returns true if a pending chain moves the joint.
     [[nodiscard]] bool will_move(std::uint32_t joint) const {
         return std::any_of(limbs_.begin(), limbs_.begin() + count_, [&](const Limb& limb) {
             const std::uint32_t start = limb.request.chain->start;
@@ -40,7 +41,7 @@ public:
         });
     }
 
-    /// Solves what was added.
+    /// Solves the pending requests.
     void solve() {
         if constexpr (!kSolvesLimbsTogether) return;
         const std::size_t count = std::exchange(count_, 0);
@@ -61,7 +62,7 @@ private:
         std::size_t number = 0;
     };
 
-    /// Adds a request to those that are solved side by side, if it can be one of them.
+    /// Adds a request to those that are solved side by side, if possible.
     bool add_limb(const ReachRequest& request, std::size_t number) {
         if constexpr (!kSolvesLimbsTogether) return false;
         if (kernels_ == nullptr || kernels_->two_bones == nullptr || count_ == kLimbs) return false;
@@ -81,7 +82,7 @@ private:
         return std::isfinite(target.position.x + target.position.y + target.position.z);
     }
 
-    /// Takes a limb's solution, if there is one.
+    /// Applies a limb's solution, if there is one.
     bool set_limb(std::size_t limb) {
         const auto& [chain, target, options] = limbs_[limb].request;
         const double distance = block_.distance[limb];
@@ -111,7 +112,7 @@ private:
     Pose& pose_;
     std::span<ReachResult> results_;
     std::span<const std::uint32_t> ends_;
-    const PoseKernels* kernels_;
+    const KernelTable* kernels_;
     TwoBoneBlock block_{};
     std::array<Limb, kLimbs> limbs_{};  ///< of `block_`
     std::size_t count_ = 0;

@@ -1,6 +1,4 @@
-#include "dual_plain.h"
-
-#include "plan/skin_vertex.h"
+#include "plain.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

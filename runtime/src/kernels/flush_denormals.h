@@ -8,7 +8,7 @@
 
 namespace bendy {
 
-/// While one lives, this thread takes denormal numbers for zero: on x86-64, they cost a hundred cycles each. For
+/// During its lifetime, this thread treats denormal numbers as zero: on x86-64, they cost a hundred cycles each. For
 /// kernels; the plain one has the same results everywhere.
 class FlushDenormals {
 public:
@@ -27,7 +27,7 @@ public:
 
 private:
     static constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x40;
-    static constexpr unsigned kFlags = 0x3f;  ///< of exceptions: to change one takes as long as blending a pose
+    static constexpr unsigned kFlags = 0x3f;  ///< exception flags: changing one takes as long as blending a pose
     unsigned before_;
 #else
     FlushDenormals() {}   // NOLINT(modernize-use-equals-default): or compilers warn of unused variables

@@ -17,7 +17,7 @@ inline void store_numbers(const Lanes* numbers, float* to) {
     store(to + kBlockJoints * (count - 1), numbers[count - 1]);
 }
 
-/// Leaves the joints alone that the mask leaves out.
+/// Leaves joints outside the mask unchanged.
 template <std::size_t count>
 inline void store_numbers(const Lanes* numbers, Lanes mask, float* to) {
     if constexpr (count > 1) store_numbers<count - 1>(numbers, mask, to);

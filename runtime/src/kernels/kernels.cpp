@@ -1,5 +1,7 @@
 #include <bendy/runtime/kernels.h>
 
+#include "kernel_table.h"
+
 #include <bendy/format/processor.h>
 
 #include <algorithm>
@@ -68,6 +70,29 @@ Result<void, CallError> set_kernel(Kernel kernel) {
     if (std::find(available.begin(), available.end(), kernel) == available.end()) return CallError::not_available;
     chosen().store(kernel, std::memory_order_relaxed);
     return {};
+}
+
+const KernelTable* kernel_table(Kernel kernel) {
+    switch (kernel) {
+#if defined(BENDY_X86_64)
+        case Kernel::sse4:
+            return &kSse4Table;
+        case Kernel::avx2:
+            return &kAvx2Table;
+#elif defined(BENDY_ARM64)
+        case Kernel::neon:
+            return &kNeonTable;
+#elif defined(BENDY_WASM_SIMD)
+        case Kernel::wasm:
+            return &kWasmTable;
+#endif
+        default:
+            return nullptr;
+    }
+}
+
+const KernelTable* kernel_table() {
+    return kernel_table(kernel());
 }
 
 }  // namespace bendy

@@ -1,5 +1,6 @@
 // Vectors of four or eight floats, each lane for another vertex or joint. Included by one header per instruction set,
-// which defines BENDY_LANES (4 or 8), the types Lanes and Quad, and what the instruction set does in ways of its own.
+// which defines BENDY_LANES (4 or 8), the types Lanes and Quad, and the operations that differ between instruction
+// sets.
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 

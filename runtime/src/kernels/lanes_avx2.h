@@ -44,7 +44,7 @@ inline Lanes& operator+=(Lanes& a, Lanes b) {
     return a = a + b;
 }
 
-/// a * b + c, rounded once. Where a sum of products would leave a choice, compilers fuse now this, now that.
+/// a * b + c, rounded once. If the source leaves the choice open, compilers fuse a sum of products inconsistently.
 inline Lanes fused(Lanes a, Lanes b, Lanes c) {
     return _mm256_fmadd_ps(a.v, b.v, c.v);
 }

@@ -46,7 +46,7 @@ inline Quad& operator+=(Quad& a, Quad b) {
 }
 using Lanes = Quad;
 
-/// a * b + c, rounded once. Where a sum of products would leave a choice, compilers fuse now this, now that.
+/// a * b + c, rounded once. If the source leaves the choice open, compilers fuse a sum of products inconsistently.
 inline Quad fused(Quad a, Quad b, Quad c) {
     return vfmaq_f32(c.v, a.v, b.v);
 }

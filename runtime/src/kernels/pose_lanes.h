@@ -1,5 +1,5 @@
 // The implementation of the joint matrix kernels, included after lanes.h by one source for each instruction set. All
-// sums of products say what is fused: those of poses_lanes.h have to round in the same way.
+// sums of products fuse explicitly: those of poses_lanes.h must round in the same way.
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
@@ -47,7 +47,8 @@ inline void multiply(const float* a, const float* b, float* to) {
 #if BENDY_LANES == 8
     const Lanes left = load_lanes(b);
     const Lanes right = load_lanes(b + 8);
-    const Lanes moved = joined(Quad(-0.0f), load_quad(a + 12));  // -0 leaves every product as it is, also zeros
+    const Lanes moved =
+        joined(Quad(-0.0f), load_quad(a + 12));  // adding -0 leaves every product unchanged, including zeros
     store(to, fused(a0, everywhere<0>(left), fused(a1, everywhere<1>(left), a2 * everywhere<2>(left))));
     store(to + 8,
           fused(a0, everywhere<0>(right), fused(a1, everywhere<1>(right), fused(a2, everywhere<2>(right), moved))));
@@ -61,7 +62,7 @@ inline void multiply(const float* a, const float* b, float* to) {
 #endif
 }
 
-/// Of whole blocks: `block.model` has room for them.
+/// Computes whole blocks: `block.model` has room for them.
 inline void make_locals(const PoseBlock& block) {
     for (std::size_t joint = 0; joint < block.joints; joint += kLanes)
         make_local(block.local + joint / kBlockJoints * kBlockFloats + joint % kBlockJoints, block.model + 16 * joint);

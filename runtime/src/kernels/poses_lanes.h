@@ -1,5 +1,5 @@
-// The joint matrix kernels for several poses at once, a lane for each: nothing is shuffled but what comes in and goes
-// out. Included after pose_lanes.h by one source for each instruction set.
+// The joint matrix kernels for several poses at once, one per lane: only input and output are shuffled. Included after
+// pose_lanes.h by one source for each instruction set.
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 

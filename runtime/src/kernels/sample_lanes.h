@@ -35,7 +35,7 @@ struct SlerpWeight {
     }
 };
 
-/// The weights of two keys, and which sign the right one takes.
+/// The weights of two keys, and the sign of the right one.
 struct Moment {
     SlerpWeight left, right;
     float sign;  ///< the bits of the right key to flip if the shorter arc leads to its negative; none at the key itself
@@ -123,7 +123,7 @@ inline void sample_lanes(const SampleBlock& block) {
     }
 }
 
-/// What a cubic Hermite spline takes of the left value and out-tangent, and of the right in-tangent and value.
+/// The weights in a cubic Hermite spline of the left value and out-tangent, and of the right in-tangent and value.
 struct CubicWeights {
     float left, out, in, right;
 
@@ -157,7 +157,7 @@ inline void sample_cubic_rotations(const TrackGroup& group, std::size_t first, c
     store_tracks<4>(q, group, first, block.local);
 }
 
-/// Vectors one by one only: the plan makes no groups of them.
+/// Only single vectors: the plan makes no groups of them.
 inline void sample_cubic_lanes(const SampleBlock& block) {
     const CubicWeights weights(block);
     for (std::size_t group = 0; group < block.rotation_groups; ++group) {

@@ -23,8 +23,8 @@ inline Three turned(const Three& v, Lanes signs) {
     return {v.x ^ signs, v.y ^ signs, v.z ^ signs};
 }
 
-/// What is known of a block at compile time: which attributes are wanted (1 positions, 2 normals, 4 tangents; 0 if this
-/// is only known at run time), that outputs are packed, and that they are written past the caches.
+/// Compile-time properties of a block: which attributes are wanted (1 positions, 2 normals, 4 tangents; 0 if this is
+/// only known at run time), that outputs are packed, and that they are written past the caches.
 template <int kWanted, bool kPacked, bool kStreams>
 struct Form {
     static constexpr int wanted = kWanted;

@@ -1,5 +1,4 @@
-#include "plan/skin_block.h"
-#include "plan/skin_vertex.h"
+#include "plain.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>

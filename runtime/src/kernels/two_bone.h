@@ -1,6 +1,6 @@
 // Two bones in closed form. Included in an unnamed namespace by one source for each kind of Number: a double, or
-// several in lanes, of which each belongs to another limb. The source also defines Mask, of a truth in each lane, and
-// the functions of both. All of them round every operation, so that lanes hold the bits of a limb alone.
+// several in lanes, one per limb. The source also defines Mask, a boolean per lane, and the functions of both. All of
+// them round every operation, so that a lane computes the same bits as a single limb.
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
@@ -125,10 +125,10 @@ struct Limb {
     Mask has_pole, is_pole_point, is_rolled, is_fixed, prefers_back;
 };
 
-/// What follows from a limb.
+/// Quantities derived from a limb.
 struct Reaching {
     Vector way;       ///< start to target, in base space
-    Number distance;  ///< squared length of that
+    Number distance;  ///< its squared length
     Vector rest;      ///< middle to tip, in the start's space
     Rotation upper, lower;
 };
@@ -140,7 +140,7 @@ struct Bend {
     Vector across;   ///< middle to tip: the part that rotates
     Vector along;    ///< middle to tip: the part along the axis
     Number b, c;     ///< component of the rotated `across` along the bone, at an angle: b cos + c sin
-    Number wanted;   ///< the value which that must have
+    Number wanted;   ///< the required value of that
     Number most;     ///< b^2 + c^2
     Number opening;  ///< sqrt(most - wanted^2): the opening to either side of the straight chain
 };

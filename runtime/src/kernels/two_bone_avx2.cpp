@@ -1,4 +1,4 @@
-#include "pose_kernels.h"
+#include "kernel_table.h"
 
 #include <bendy/format/processor.h>
 

@@ -90,11 +90,7 @@ void build_rig(ModelData& data) {
         }
     }
     if (data.object.chains.empty()) return;
-    std::vector<std::uint32_t> depths(data.joints.size());
-    for (std::size_t joint = 0; joint < depths.size(); ++joint) {
-        const std::uint32_t parent = data.joints[joint].parent;
-        depths[joint] = parent == kNone ? 0 : depths[parent] + 1;
-    }
+    const std::vector<std::uint32_t> depths = depths_of(data.joints);
     for (const ChainView& view : data.object.chains) {
         data.chains.push_back(make_chain(view, static_cast<std::uint32_t>(data.chains.size()), depths));
         data.longest_chain = std::max(data.longest_chain, data.chains.back().links);

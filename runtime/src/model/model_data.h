@@ -39,7 +39,7 @@ struct ModelData {
     /// Builds the data that posing and skinning need in addition to the file's streams, if that has not been done yet.
     void make_plans() const;
     /// Returns the index of a clip among the model's clips; their number if it is not one of them. Like `check`,
-    /// compares addresses only: a clip of a model that is gone is no part of another one.
+    /// compares addresses only: a clip of a destroyed model does not belong to another one.
     [[nodiscard]] std::size_t number_of(const Clip* clip) const;
     /// Returns an error unless the model has this very clip or chain: `missing` if it is null, otherwise `other_model`.
     [[nodiscard]] Result<void, CallError> check(const Clip* clip) const;

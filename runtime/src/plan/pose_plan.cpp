@@ -2,8 +2,7 @@
 
 #include <bendy/runtime/model.h>
 
-#include "joint_blocks.h"
-#include "palette_rows.h"
+#include "layout.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
@@ -26,15 +25,6 @@ std::vector<std::uint32_t> ends_of(std::span<const Joint> joints) {
         if (parent != kNone) ends[parent] = std::max(ends[parent], ends[joint]);
     }
     return ends;
-}
-
-std::vector<std::uint32_t> depths_of(std::span<const Joint> joints) {
-    std::vector<std::uint32_t> depths(joints.size());
-    for (std::size_t joint = 0; joint < joints.size(); ++joint) {
-        const std::uint32_t parent = joints[joint].parent;
-        depths[joint] = parent == kNone ? 0 : depths[parent] + 1;
-    }
-    return depths;
 }
 
 bool is_same(const PaletteView& a, const PaletteView& b) {
@@ -88,7 +78,7 @@ public:
         low_ = glm::min(low_, point);
         high_ = glm::max(high_, point);
     }
-    /// Returns the length of the diagonal; negative if there is no point.
+    /// Returns the length of the diagonal; negative if the box is empty.
     [[nodiscard]] double diagonal() const { return low_.x <= high_.x ? glm::length(high_ - low_) : -1.0; }
 
 private:
@@ -236,6 +226,15 @@ SamplePlan make_sample_plan(const ClipView& clip, std::span<const JointTransform
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> depths_of(std::span<const Joint> joints) {
+    std::vector<std::uint32_t> depths(joints.size());
+    for (std::size_t joint = 0; joint < joints.size(); ++joint) {
+        const std::uint32_t parent = joints[joint].parent;
+        depths[joint] = parent == kNone ? 0 : depths[parent] + 1;
+    }
+    return depths;
+}
 
 PosePlan make_pose_plan(const ObjectView& object, std::span<const Joint> joints) {
     PosePlan plan;

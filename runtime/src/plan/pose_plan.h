@@ -4,7 +4,7 @@
 #include <bendy/runtime/palette_matrix.h>
 #include <bendy/runtime/transform.h>
 
-#include "sample_block.h"
+#include "blocks.h"
 #include "unpack_plan.h"
 
 #include <cstddef>
@@ -16,6 +16,9 @@
 namespace bendy {
 
 struct Joint;
+
+/// Returns the number of each joint's ancestors; parents come before their children.
+std::vector<std::uint32_t> depths_of(std::span<const Joint> joints);
 
 /// Tracks of one interpolation, grouped for the kernels.
 struct SampleGroups {

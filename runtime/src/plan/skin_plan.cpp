@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint32_t kAbsent = ~std::uint32_t{0};
 constexpr std::uint32_t kMostBones = SkinPlan::kMostBones;
 
-/// Appends the lists of one group after another.
+/// For each group of vertices, collects the bones that move it and their weights.
 template <class Bone>
 class Lists {
 public:

@@ -4,9 +4,9 @@
 #include <bendy/runtime/skin.h>
 
 #include "kernels/flush_denormals.h"
-#include "kernels/pose_kernels.h"
+#include "kernels/kernel_table.h"
 #include "model/model_data.h"
-#include "plan/palette_rows.h"
+#include "plan/layout.h"
 #include "plan/pose_plan.h"
 #include "pose/pose_state.h"
 
@@ -83,7 +83,7 @@ Result<void, CallError> Crowd::write(const CrowdMember& member, std::size_t work
     if (member.palette.empty()) return result;
     if (member.palette.size() < palette_size()) return CallError::output_too_short;
     Batch& batch = batches_[worker];
-    if (is_skinned || model_space_.empty() || pose_kernels() == nullptr) {
+    if (is_skinned || model_space_.empty() || kernel_table() == nullptr) {
         write_palette(pose, member.palette.data());
         return result;
     }
@@ -99,7 +99,7 @@ void Crowd::write_batch(std::size_t worker) {
     constexpr std::size_t kFew = 2;  // faster one by one
     Batch& batch = batches_[worker];
     const std::size_t count = std::exchange(batch.count, 0);
-    const PoseKernels* const kernels = pose_kernels();
+    const KernelTable* const kernels = kernel_table();
     if (count <= kFew || kernels == nullptr) {
         for (std::size_t k = 0; k < count; ++k) {
             PoseState& state = PoseState::of(poses_[worker]);

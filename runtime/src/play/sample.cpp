@@ -3,7 +3,7 @@
 #include <bendy/runtime/sample.h>
 
 #include "kernels/flush_denormals.h"
-#include "kernels/pose_kernels.h"
+#include "kernels/kernel_table.h"
 #include "pose/pose_state.h"
 #include "unpack.h"
 
@@ -195,7 +195,7 @@ public:
           weights_(pose.change_morph_weights()) {}
 
     void run() const {
-        if (const PoseKernels* const kernels = pose_kernels()) {
+        if (const KernelTable* const kernels = kernel_table()) {
             run_plan(model_.pose_plan->clips[number_], *kernels);
         } else {
             state_.set_rest();
@@ -206,7 +206,7 @@ public:
     }
 
 private:
-    void run_plan(const SamplePlan& plan, const PoseKernels& kernels) const {
+    void run_plan(const SamplePlan& plan, const KernelTable& kernels) const {
         const FlushDenormals flush;
         state_.set_start(clip_.packed ? plan.packed.start : plan.start.empty() ? model_.pose_plan->rest : plan.start);
         sample_plays();
@@ -243,7 +243,7 @@ private:
         }
     }
 
-    void sample_line(const SampleLine& line, const PoseKernels& kernels) const {
+    void sample_line(const SampleLine& line, const KernelTable& kernels) const {
         const Interval at = find_interval(*line.clock, clip_, seconds_);
         for (const TrackView* track : line.others) sample_one(*track, at);
         if (at.left == at.right) {  // tangents have no part in a key

@@ -1,6 +1,6 @@
 #include "unpack.h"
 
-#include "kernels/pose_kernels.h"
+#include "kernels/kernel_table.h"
 #include "plan/unpack_plan.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ UnpackBlock block_at(const UnpackPlan& plan, float seconds, float* floats) {
 }  // namespace
 
 void unpack(const UnpackPlan& plan, float seconds, std::size_t joints, std::span<JointBlock> local) {
-    const PoseKernels* const kernels = pose_kernels();
+    const KernelTable* const kernels = kernel_table();
     if (kernels == nullptr) return unpack_plain(plan, seconds, joints, local);
     if (plan.packed->record.joints > joints || plan.groups.empty()) return;
     kernels->unpack(block_at(plan, seconds, &local.front().rotation[0][0]));

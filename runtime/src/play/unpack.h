@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plan/unpack_plain.h"
+#include "plan/unpack_plan.h"
 
 namespace bendy {
 

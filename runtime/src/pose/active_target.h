@@ -41,4 +41,8 @@ private:
 std::span<ActiveTarget> find_active_targets(const MeshView& mesh, std::span<const float> weights,
                                             std::span<ActiveTarget> room);
 
+/// Decodes elements of a stream, from `first` on, with the kernel in use: as StreamView::decode, except for rounding.
+void decode(const StreamView& stream, std::size_t first, std::span<glm::vec3> out);
+void decode(const StreamView& stream, std::size_t first, std::span<glm::vec4> out);
+
 }  // namespace bendy

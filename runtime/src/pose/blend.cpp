@@ -1,7 +1,7 @@
 #include <bendy/runtime/blend.h>
 
 #include "kernels/flush_denormals.h"
-#include "kernels/pose_kernels.h"
+#include "kernels/kernel_table.h"
 #include "pose_state.h"
 
 #include <cmath>
@@ -63,7 +63,7 @@ Result<void, CallError> blend(Pose& pose, const Pose& other, float weight, std::
     state.stale.mark_all();
     if (state.local.empty()) return {};
     const BlendBlock block = block_of(state, PoseState::of(other), weight, mask);
-    if (const PoseKernels* kernels = pose_kernels()) {
+    if (const KernelTable* kernels = kernel_table()) {
         const FlushDenormals flush;
         kernels->mix(block);
     } else {
@@ -98,7 +98,7 @@ Result<void, CallError> add(Pose& pose, const Pose& difference, float weight, st
     state.stale.mark_all();
     if (state.local.empty()) return {};
     const BlendBlock block = block_of(state, PoseState::of(difference), weight, mask);
-    if (const PoseKernels* kernels = pose_kernels()) {
+    if (const KernelTable* kernels = kernel_table()) {
         const FlushDenormals flush;
         kernels->add(block);
     } else {

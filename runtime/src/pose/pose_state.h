@@ -5,11 +5,11 @@
 
 #include "active_target.h"
 #include "ik_link.h"
+#include "kernels/plain.h"
 #include "model/model_data.h"
-#include "plan/joint_blocks.h"
+#include "plan/blocks.h"
+#include "plan/layout.h"
 #include "plan/pose_plan.h"
-#include "plan/skin_block.h"
-#include "plan/stretched_motion.h"
 #include "stale_joints.h"
 
 #include <glm/mat4x4.hpp>
@@ -22,7 +22,7 @@
 
 namespace bendy {
 
-struct PoseKernels;
+struct KernelTable;
 
 /// The work memory for skinning by dual quaternions.
 struct DualMotions {
@@ -105,7 +105,7 @@ struct alignas(64) PoseState {
 
 private:
     void find_model_space();
-    void find_subtree(const StaleJoints::Subtree& subtree, const PoseKernels* kernels);
+    void find_subtree(const StaleJoints::Subtree& subtree, const KernelTable* kernels);
     void find_exactly(const StaleJoints::Subtree& subtree);
     /// Returns whether all numbers are finite.
     bool compute_palette(std::uint32_t mesh, PaletteMatrix* out) const;

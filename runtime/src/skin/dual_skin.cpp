@@ -1,9 +1,7 @@
 #include "dual_skin.h"
 
-#include <bendy/runtime/kernels.h>
-
-#include "kernels/dual_plain.h"
-#include "kernels/skin_kernel.h"
+#include "kernels/kernel_table.h"
+#include "kernels/plain.h"
 #include "math/rigid_part.h"
 #include "staging.h"
 
@@ -130,7 +128,7 @@ void find_motions(PoseState& state, std::uint32_t mesh, DualMotions& dual) {
         dual.is_stretched = dual.is_stretched || largest(dual.motions[entry].stretch - glm::dmat3(1.0)) > kStretched;
     }
     dual.are_good = true;
-    dual.has_kernel = skin_kernels(kernel()).dual != nullptr && round_motions(palette.size(), dual);
+    dual.has_kernel = kernel_table() != nullptr && round_motions(palette.size(), dual);
 }
 
 }  // namespace
@@ -155,13 +153,13 @@ bool skin_by_dual_quaternions(PoseState& state, std::uint32_t mesh, std::uint32_
     SkinBlock wanted = outputs;
     wanted.palette = dual.has_kernel && dual.is_stretched ? dual.kernel_stretches.data() : nullptr;
     Staging staging(data.object.meshes[mesh], nullptr, weights, state.active_targets, wanted);
-    DualKernel* const run = dual.has_kernel ? skin_kernels(kernel()).dual : nullptr;
+    const KernelTable* const kernels = dual.has_kernel ? kernel_table() : nullptr;
     DualBlock block{wanted, dual.kernel_motions.data(), static_cast<float>(dual.scale)};
     for (std::size_t first = 0; first < wanted.vertices; first += block.vertices.vertices) {
         block.vertices.vertices = std::min(wanted.vertices - first, staging.capacity());
         staging.fill(first, wanted, block.vertices);
-        if (run != nullptr) {
-            run(block);
+        if (kernels != nullptr) {
+            kernels->dual(block);
         } else {
             dual_plain(block.vertices, dual.motions, dual.scale, dual.is_stretched);
         }

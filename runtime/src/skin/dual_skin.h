@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plan/skin_block.h"
+#include "plan/blocks.h"
 #include "pose/pose_state.h"
 
 #include <cstdint>

@@ -3,7 +3,8 @@
 #include <bendy/runtime/kernels.h>
 
 #include "dual_skin.h"
-#include "kernels/skin_kernel.h"
+#include "kernels/kernel_table.h"
+#include "kernels/plain.h"
 #include "pose/pose_state.h"
 #include "staging.h"
 
@@ -12,6 +13,11 @@
 
 namespace bendy {
 namespace {
+
+SkinKernel* skin_kernel(Kernel kernel) {
+    const KernelTable* const table = kernel_table(kernel);
+    return table == nullptr ? skin_plain : table->skin;
+}
 
 /// Copies vertices that no joint moves.
 void copy_block(const SkinBlock& block) {
@@ -76,7 +82,7 @@ void Skinning::run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted
 }
 
 void Skinning::skin_rigid(std::uint32_t mesh, Staging& staging, const SkinBlock& wanted) {
-    SkinKernel* const chosen = skin_kernels(kernel()).linear;
+    SkinKernel* const chosen = skin_kernel(kernel());
     const std::size_t vertices = wanted.vertices;
     const bool has_one_mover = data_.movers[mesh].per_vertex.empty();
     for (std::size_t first = 0; first < vertices;) {
@@ -117,7 +123,7 @@ void Skinning::skin_mesh(std::uint32_t mesh_number, std::uint32_t vertices, std:
     const Kernel chosen = state_.make_palette(mesh_number) ? kernel() : Kernel::plain;
     Staging staging(mesh, chosen == Kernel::avx2 ? &data_.skin_plans[mesh_number] : nullptr, weights,
                     state_.active_targets, wanted);
-    run(skin_kernels(chosen).linear, staging, wanted, 0, vertices);
+    run(skin_kernel(chosen), staging, wanted, 0, vertices);
 }
 
 }  // namespace

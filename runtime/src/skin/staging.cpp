@@ -1,7 +1,7 @@
 #include "staging.h"
 
 #include "model/frame_shape.h"
-#include "pose/decode.h"
+#include "pose/active_target.h"
 
 #include <algorithm>
 #include <cassert>

@@ -2,7 +2,7 @@
 
 #include <bendy/runtime/model.h>
 
-#include "plan/skin_block.h"
+#include "plan/blocks.h"
 #include "plan/skin_plan.h"
 #include "pose/active_target.h"
 

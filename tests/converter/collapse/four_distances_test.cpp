@@ -1,4 +1,4 @@
-#include "collapse/distances.h"
+#include "optimise/collapse/distances.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "compact/build_compact.h"
+#include "optimise/compact/build_compact.h"
 
 #include "converter/posed_scene.h"
-#include "evaluate.h"
-#include "frame_shapes.h"
+#include "scene/evaluate.h"
+#include "scene/frame_shapes.h"
 #include "source_folder.h"
 
 #include <bendy/converter/build_chunks.h>

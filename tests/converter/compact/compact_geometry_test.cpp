@@ -1,6 +1,6 @@
-#include "compact/compact_geometry.h"
-#include "evaluate.h"
-#include "measure_error.h"
+#include "optimise/compact/compact_geometry.h"
+#include "optimise/measure_error.h"
+#include "scene/evaluate.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import.h>

@@ -1,4 +1,4 @@
-#include "compact/leaf_writer.h"
+#include "optimise/compact/leaf_writer.h"
 
 #include <bendy/format/codec.h>
 

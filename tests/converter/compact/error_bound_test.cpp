@@ -23,13 +23,13 @@ TEST(ErrorBound, ErrorsSayWhatIsWrong) {
     };
     EXPECT_NE(error("0.1").find("no unit"), std::string::npos);
     EXPECT_NE(error("0.1").find("0.1mm"), std::string::npos);
-    EXPECT_NE(error("1in").find("is no unit"), std::string::npos);
+    EXPECT_NE(error("1in").find("unknown unit"), std::string::npos);
     EXPECT_NE(error("-1mm").find("not above zero"), std::string::npos);
     EXPECT_NE(error("0%").find("not above zero"), std::string::npos);
     EXPECT_NE(error("infmm").find("not above zero"), std::string::npos);
     EXPECT_NE(error("nanmm").find("not above zero"), std::string::npos);
-    EXPECT_NE(error("").find("no error bound"), std::string::npos);
-    EXPECT_NE(error("small").find("no error bound"), std::string::npos);
+    EXPECT_NE(error("").find("not an error bound"), std::string::npos);
+    EXPECT_NE(error("small").find("not an error bound"), std::string::npos);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-#include "collapse/collapse_vertices.h"
-#include "compact/compact_geometry.h"
+#include "optimise/collapse/collapse_vertices.h"
+#include "optimise/compact/compact_geometry.h"
 #include "source_folder.h"
 
 #include <bendy/converter/import.h>

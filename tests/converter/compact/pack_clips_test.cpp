@@ -1,6 +1,6 @@
-#include "compact/pack_clips.h"
+#include "optimise/compact/pack_clips.h"
 
-#include "compact/grid.h"
+#include "optimise/compact/grid.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/format/document.h>

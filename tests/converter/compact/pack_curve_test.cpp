@@ -1,8 +1,8 @@
-#include "compact/pack_curve.h"
+#include "optimise/compact/pack_curve.h"
 
-#include "compact/build_compact.h"
-#include "compare/compare_curves.h"
-#include "passes/merge_clips.h"
+#include "optimise/compact/build_compact.h"
+#include "optimise/compare/compare_curves.h"
+#include "optimise/passes/merge_clips.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/compare_characters.h>

@@ -1,7 +1,7 @@
-#include "compact/quantise_clip.h"
+#include "optimise/compact/quantise_clip.h"
 
-#include "compact/measure.h"
 #include "converter/posed_scene.h"
+#include "optimise/compact/measure.h"
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>

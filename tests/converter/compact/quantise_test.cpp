@@ -1,4 +1,4 @@
-#include "compact/quantise.h"
+#include "optimise/compact/quantise.h"
 
 #include <gtest/gtest.h>
 

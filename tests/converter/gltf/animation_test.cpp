@@ -170,7 +170,7 @@ TEST(GltfAnimation, KeysAtOneTimeAreAJump) {
 TEST(GltfAnimation, RotationKeysAreNormalised) {
     const Import import = import_keys({0, 1}, {0, 0, 0, 2, 0.6f, 0, 0, 0.8f}, "VEC4", "rotation");
     EXPECT_EQ(import->clips.at(0).tracks.at(0).values, (std::vector<float>{0, 0, 0, 1, 0.6f, 0, 0, 0.8f}));
-    EXPECT_EQ(import.warned("no unit quaternion"), 1u);
+    EXPECT_EQ(import.warned("not a unit quaternion"), 1u);
 }
 
 TEST(GltfAnimation, ARotationKeyOfZerosIsLeftOut) {

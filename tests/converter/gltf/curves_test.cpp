@@ -124,7 +124,7 @@ TEST(GltfCurves, TransformsAndWeightsBecomeTracks) {
     EXPECT_EQ(tracks[0].path, TrackPath::translation);
     EXPECT_EQ(tracks[0].target, 1u);
     EXPECT_EQ(tracks[1].values, (std::vector<float>{0, 0, 0, 1, 0, 0, 1, 0}));
-    EXPECT_EQ(import.warned("no unit quaternion, normalised"), 1u);
+    EXPECT_EQ(import.warned("not a unit quaternion, normalised"), 1u);
     EXPECT_EQ(tracks[2].path, TrackPath::weights);
     EXPECT_EQ(tracks[2].values, (std::vector<float>{1, 2, 3, 4}));
     EXPECT_TRUE(curves_of(import).empty());

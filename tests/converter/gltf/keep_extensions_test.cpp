@@ -112,7 +112,7 @@ TEST(GltfKeptExtensions, WhatIsNoObjectIsLeftOut) {
     const Import import = gltf.import();
     EXPECT_EQ(import->extensions, "");
     EXPECT_EQ(import->joints[0].extensions, "");
-    EXPECT_EQ(import.warned("extensions are no object"), 2u);
+    EXPECT_EQ(import.warned("extensions are not an object"), 2u);
 }
 
 TEST(GltfKeptExtensions, AFileMayDemandThem) {

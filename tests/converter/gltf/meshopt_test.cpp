@@ -1,6 +1,6 @@
 #include "build_gltf.h"
 
-#include "gltf/meshopt.h"
+#include "scene/gltf/meshopt.h"
 
 #include <meshoptimizer.h>
 

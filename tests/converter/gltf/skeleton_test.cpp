@@ -117,7 +117,7 @@ TEST(GltfSkeleton, RotationsAreUnit) {
     EXPECT_EQ(import->joints[0].rest.rotation, glm::vec4(0, 0, 0, 1));
     EXPECT_EQ(import->joints[1].rest.rotation, glm::vec4(0, 0, 0, 1));
     EXPECT_EQ(import->joints[2].rest.rotation, glm::vec4(0.6f, 0, 0, 0.8f));
-    EXPECT_EQ(import.warned("rotation of a node is no unit quaternion"), 1u);
+    EXPECT_EQ(import.warned("rotation of a node is not a unit quaternion"), 1u);
     EXPECT_EQ(import.warned("rotation of a node is (0, 0, 0, 0)"), 1u);
 }
 

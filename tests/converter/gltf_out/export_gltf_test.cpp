@@ -312,7 +312,7 @@ TEST(ExportGltf, WhatGltfForbidsIsMended) {
     coords.values = {0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.5f};
     scene.meshes[0].texture_coords.push_back(coords);
     const Exported exported = export_scene(scene);
-    EXPECT_TRUE(exported.warns("no unit vector, normalised"));
+    EXPECT_TRUE(exported.warns("not a unit vector, normalised"));
     EXPECT_TRUE(exported.warns("TEXCOORD_1 is written as zeros"));
     const Mesh again = import_again(exported.asset).meshes[0];
     EXPECT_EQ(again.normals[0], glm::vec3(0.0f, 0.0f, 1.0f));

@@ -1,7 +1,7 @@
-#include "humanoid/auto_rig.h"
+#include "rigging/humanoid/auto_rig.h"
 
 #include "humanoid_gltf.h"
-#include "rest_frames.h"
+#include "scene/rest_frames.h"
 #include "source_folder.h"
 
 #include <bendy/converter/build_chunks.h>

@@ -1,4 +1,4 @@
-#include "humanoid/humanoid.h"
+#include "rigging/humanoid/humanoid.h"
 
 #include <gtest/gtest.h>
 

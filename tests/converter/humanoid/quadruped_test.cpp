@@ -1,4 +1,4 @@
-#include "humanoid/auto_rig.h"
+#include "rigging/humanoid/auto_rig.h"
 
 #include "humanoid_gltf.h"
 

@@ -1,4 +1,4 @@
-#include "md2/quake2.h"
+#include "scene/md2/quake2.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import.h>
@@ -342,7 +342,7 @@ TEST(ImportMd2, WhatIsDoneOnceDoesNotRepeat) {
 }
 
 TEST(ImportMd2, FaultsNameTheByte) {
-    EXPECT_EQ(fault_of({}), "byte 0: this is no Quake II model: it does not begin with 'IDP2'");
+    EXPECT_EQ(fault_of({}), "byte 0: this is not a Quake II model: it does not begin with 'IDP2'");
     EXPECT_EQ(fault_with(4, 7), "byte 4: version 7 is not known, only version 8 (Quake II)");
     EXPECT_EQ(fault_with(8, 0), "byte 8: the skin has no size: texture coordinates mean nothing");
     EXPECT_EQ(fault_with(12, 0), "byte 12: the skin has no size: texture coordinates mean nothing");

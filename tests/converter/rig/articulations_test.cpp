@@ -1,4 +1,4 @@
-#include "rig/attach_rig.h"
+#include "rigging/rig/attach_rig.h"
 
 #include "../humanoid/humanoid_gltf.h"
 
@@ -132,7 +132,7 @@ TEST(Articulations, WhatIsWrongIsNamedByItsPlace) {
         const Rigged rigged = rig(articulations);
         EXPECT_TRUE(rigged.scene.joints[0].constraints.empty()) << articulations;
         EXPECT_GE(warned(rigged.report, place), 1u) << articulations;
-        EXPECT_GE(warned(rigged.report, "node of an articulation that is not there"), 1u) << articulations;
+        EXPECT_GE(warned(rigged.report, "node of an articulation that does not exist"), 1u) << articulations;
     };
     expect(Json(), "extensions.AGI_articulations.articulations");
     expect("x", "extensions.AGI_articulations.articulations");

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "failure.h"
-#include "rig/attach_rig.h"
-#include "rig/parse_rig.h"
+#include "rigging/rig/attach_rig.h"
+#include "rigging/rig/parse_rig.h"
+#include "scene/failure.h"
 
 #include <bendy/converter/scene.h>
 

@@ -1,8 +1,8 @@
-#include "rig/clips.h"
+#include "rigging/rig/clips.h"
 
 #include "build_scene.h"
-#include "frame_shapes.h"
-#include "rig/parse_rig.h"
+#include "rigging/rig/parse_rig.h"
+#include "scene/frame_shapes.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/export.h>

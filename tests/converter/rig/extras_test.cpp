@@ -1,8 +1,8 @@
 #include "build_scene.h"
 
-#include "rest_frames.h"
-#include "rig/attach_rig.h"
-#include "rig/blender.h"
+#include "rigging/rig/attach_rig.h"
+#include "rigging/rig/blender.h"
+#include "scene/rest_frames.h"
 
 #include <bendy/format/constraint.h>
 

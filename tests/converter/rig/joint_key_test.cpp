@@ -1,6 +1,6 @@
 #include "build_scene.h"
 
-#include "rig/joint_key.h"
+#include "rigging/rig/joint_key.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "build_scene.h"
-#include "rig/attach_rig.h"
+#include "rigging/rig/attach_rig.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/export.h>

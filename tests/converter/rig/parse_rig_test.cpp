@@ -140,7 +140,7 @@ TEST(ParseRig, BadConstraintsNameTheirPlace) {
     EXPECT_EQ(constraint_error(R"({"model": "swing_twist_ellipse", "z": [10, 20]})"),
               "joints.j.z: a swing's range must hold 0");
     EXPECT_EQ(constraint_error(R"({"model": "free", "frame": [0, 0, 0, 0]})"),
-              "joints.j.frame: 0 0 0 0 is no rotation");
+              "joints.j.frame: 0 0 0 0 is not a rotation");
     EXPECT_EQ(constraint_error(R"({"model": "free", "frame": [0, 0, 0, null]})"),
               "joints.j.frame[3]: expected a number, found null");
     EXPECT_EQ(constraint_error(R"({"model": "free", "stiffness": [0, 0, 1.5]})"),
@@ -180,7 +180,7 @@ TEST(ParseRig, BadFilesNameTheirPlace) {
             parse_rig(text, report);
         });
     };
-    EXPECT_EQ(error(""), "invalid JSON: there is no text");
+    EXPECT_EQ(error(""), "invalid JSON: the text is empty");
     EXPECT_EQ(error("{}"), "bendy_rig: it is required and missing");
     EXPECT_EQ(error("[]"), "it must be an object, not array");
     EXPECT_EQ(error(R"({"bendy_rig": 2})"), "bendy_rig: layout 2 is not supported, only 1");

@@ -1,4 +1,4 @@
-#include "source/importers.h"
+#include "scene/source/importers.h"
 
 #include <bendy/converter/source_format.h>
 

@@ -1,4 +1,4 @@
-#include "source/named_files.h"
+#include "scene/source/named_files.h"
 
 #include "temporary_folder.h"
 

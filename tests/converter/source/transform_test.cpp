@@ -1,4 +1,4 @@
-#include "source/normalise.h"
+#include "scene/source/normalise.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "x/conventions.h"
+#include "scene/x/conventions.h"
 
 #include <gtest/gtest.h>
 

@@ -343,7 +343,7 @@ TEST(ExportX, WhatXFilesCannotHoldIsNamedAndCounted) {
                                    {"an author's attribute" + no_place, 1},
                                    {"that a material has two sides" + no_place, 1},
                                    {"how a texture is sampled is left out", 1},
-                                   {"what the file says of its source left out: author, copyright, generator", 1},
+                                   {"the source's asset data left out: author, copyright, generator", 1},
                                    {"lines and points left out: X-files have triangles only", 1},
                                    {"weights of morph targets left out of a clip", 1},
                                    {"a clip that moves no joint is left out", 1},

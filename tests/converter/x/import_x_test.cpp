@@ -212,8 +212,9 @@ Frame F:1-2.b { <22222222-2222-2222-2222-222222222222>
     ASSERT_EQ(file.scene.meshes.size(), 1u);
     EXPECT_EQ(file.scene.joints[0].name, "F:1-2.b");
     EXPECT_EQ(file.scene.meshes[0].positions[1], glm::vec3(1.5f, 0, 0));
-    EXPECT_EQ(warnings_of(file), (std::vector<std::string>{"line 7, column 1: data object of type 'Unknown' left out",
-                                                           "line 9, column 31: what is no number is taken as 0"}));
+    EXPECT_EQ(warnings_of(file),
+              (std::vector<std::string>{"line 7, column 1: data object of type 'Unknown' left out",
+                                        "line 9, column 31: a value that is not a number is taken as 0"}));
 }
 
 TEST(ImportX, NamesThatAreNotUtf8AreTakenForLatin1) {
@@ -228,7 +229,7 @@ TEST(ImportX, FaultsHaveTheirPlaces) {
     EXPECT_EQ(fault_of("Frame A ; B"), "line 2, column 11: expected '{', found 'B'");
     EXPECT_EQ(fault_of("Frame A {\n FrameTransformMatrix { 1,0,x"), "line 3, column 29: expected a number, found 'x'");
     EXPECT_EQ(fault_of("Frame A { FrameTransformMatrix { 1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1;; } }"),
-              "line 2, column 1: the last column of its matrix is not 0 0 0 1: no affine transform");
+              "line 2, column 1: the last column of its matrix is not 0 0 0 1: not an affine transform");
     EXPECT_EQ(fault_of("Mesh { 4000000000; 1;2;3;"),
               "line 2, column 8: 4000000000 vertices do not fit into what remains of the file");
     EXPECT_EQ(fault_of("Mesh { -1;"), "line 2, column 8: expected a whole number of 32 bits, found '-1'");
@@ -239,8 +240,7 @@ TEST(ImportX, FaultsHaveTheirPlaces) {
               "line 5, column 26: expected 1 faces of normals, found 2");
     EXPECT_EQ(fault_of(kSquare + "MeshMaterialList { 2; 1; 0; } }"),
               "line 5, column 29: the list that begins at line 5, column 1 has 0 materials, but says 2");
-    EXPECT_EQ(fault_of("AnimationSet { Animation { AnimationKey { 7;"),
-              "line 2, column 43: there are no keys of type 7");
+    EXPECT_EQ(fault_of("AnimationSet { Animation { AnimationKey { 7;"), "line 2, column 43: unknown key type 7");
     EXPECT_EQ(
         fault_of("Frame A { } AnimationSet { Animation { {A} AnimationKey { 2; 2; 5;3;0,0,0;;, 4;3;0,0,0;;; } } }"),
         "line 2, column 28: key 1: key times must increase");
@@ -250,7 +250,7 @@ TEST(ImportX, FaultsHaveTheirPlaces) {
 }
 
 TEST(ImportX, OtherVariantsAreRefusedByName) {
-    EXPECT_EQ(read("<xml>").fault, ": this is no X-file: it does not begin with 'xof ', but with '<xml'");
+    EXPECT_EQ(read("<xml>").fault, ": this is not an X-file: it does not begin with 'xof ', but with '<xml'");
     EXPECT_EQ(read("xof 03").fault, ": the X-file's header is truncated: expected 16 bytes, found 6");
     EXPECT_EQ(read("xof 0303txt 0016abc").fault,
               ": the X-file's floats have an unknown size '0016': 0032 and 0064 are read");
@@ -375,7 +375,7 @@ TEST(ImportX, ADeclDataOfAnotherSizeIsRefused) {
     EXPECT_EQ(fault_of(kSquare + "DeclData { 1; 2;0;3;0;; 3; 0,0,0;; } }"),
               "line 5, column 25: expected 3 words for each of 4 vertices, found 3");
     EXPECT_EQ(fault_of(kSquare + "DeclData { 1; 99;0;3;0;; 3; 0,0,0;; } }"),
-              "line 5, column 15: there is no vertex element of type 99");
+              "line 5, column 15: unknown vertex element type 99");
     EXPECT_EQ(fault_of(kSquare + "DeclData { 1; 2;0;3;0;; 12; 2143289344,0,0,0,0,0,0,0,0,0,0,0;; } }"),
               "line 5, column 60: a number of a vertex is not finite");
 }
@@ -479,7 +479,7 @@ TEST(ImportX, BinaryFilesSayTheSame) {
     cut.name("Mesh").open().integers({1, 2, 3});
     EXPECT_EQ(read(cut.bytes().substr(0, cut.bytes().size() - 4)).fault,
               "byte 28: a list of 3 numbers does not fit into the file");
-    EXPECT_EQ(read(std::string("xof 0303bin 0032\x63\0", 18)).fault, "byte 16: there is no token of number 99");
+    EXPECT_EQ(read(std::string("xof 0303bin 0032\x63\0", 18)).fault, "byte 16: unknown token number 99");
 }
 
 TEST(ImportX, DeepAndWideFilesTakeTimeLinearInTheirSize) {

@@ -13,7 +13,7 @@ struct ErrorBound {
     bool is_share = true;
 };
 
-/// Reads `0.1mm`, `1 cm`, `0.0005m`, `50um` or `0.005%`. The error is one line that says what is wrong.
+/// Parses `0.1mm`, `1 cm`, `0.0005m`, `50um` or `0.005%`. The error is a one-line message.
 Result<ErrorBound, std::string> parse_error_bound(std::string_view text);
 
 }  // namespace bendy::converter

@@ -14,36 +14,36 @@
 namespace bendy::converter {
 
 struct ExportOptions {
-    /// One level of detail of a file that has a collapse sequence: how many vertices of each mesh are left, as
-    /// Lod::vertices says. Empty: all there are.
+    /// One level of detail of a file that has a collapse sequence: how many vertices of each mesh to keep, as in
+    /// Lod::vertices. Empty: all.
     std::vector<std::uint32_t> vertices;
-    /// Where the result will be written: links to images are relative to its folder. Empty: beside the bendy file.
+    /// Where the result will be written: links to images are made relative to its folder. Empty: beside the bendy file.
     std::filesystem::path output = {};
 };
 
 /// A glTF 2.0 asset: JSON text, and the bytes of its one buffer.
 struct GltfAsset {
     std::string json;
-    std::vector<std::byte> buffer;  ///< may be empty; the asset has no buffer then
+    std::vector<std::byte> buffer;  ///< may be empty; the asset then has no buffer
 };
 
 /// Reads a bendy file and writes it as glTF 2.0: nodes with the joints' numbers, meshes, skins, morph targets,
 /// animations, materials and textures; constraints and IK chains as a rig file (spec/rig.md) in the scene's extras,
-/// where import_gltf's caller finds them. Floats are kept to the bit, so that the result converts to the same chunks.
-/// What glTF cannot hold is named in `report`. Throws nothing.
+/// where import_gltf's caller finds them. Floats are kept bit for bit, so that the result converts to the same chunks.
+/// `report` lists everything that glTF cannot hold. Throws nothing.
 /// \param buffer_file  where the buffer will be, relative to the JSON; empty: in the same GLB file
 Result<GltfAsset, ImportError> export_gltf(const std::filesystem::path& bendy_file,
                                            const std::filesystem::path& buffer_file, Report& report,
                                            const ExportOptions& options = {});
 
-/// The same from memory; `bytes` start on a 16-byte boundary.
+/// As above, from memory; `bytes` must be 16-byte aligned.
 Result<GltfAsset, ImportError> export_gltf(Bytes bytes, const std::filesystem::path& buffer_file, Report& report,
                                            const ExportOptions& options = {});
 
-/// The asset as one GLB file. Fails where it would pass the container's 4 GiB.
+/// The asset as one GLB file. Fails if it would exceed the container's 4 GiB.
 Result<std::vector<std::byte>, ImportError> make_glb(const GltfAsset& asset);
 
-/// An X-file's text, and the images that must lie beside it.
+/// The text of an X-file, and the images that must be written beside it.
 struct XAsset {
     struct File {
         std::string name;  ///< relative to the X-file
@@ -54,19 +54,21 @@ struct XAsset {
 };
 
 /// Reads a bendy file and writes it as a DirectX X-file in text (`xof 0303txt 0032`): frames, meshes with SkinWeights,
-/// materials, animation sets; constraints and IK chains in templates of our own (spec/xfile.md). The space is mirrored
-/// along Z, as X-files are left-handed. What X-files cannot hold is named in `report`. Throws nothing.
-/// \param image_stem  images that the file embeds are called `image_stem` and a number
+/// materials, animation sets; constraints and IK chains in our own templates (spec/xfile.md). The space is mirrored
+/// along Z, as X-files are left-handed. `report` lists everything that X-files cannot hold. Throws nothing.
+/// \param image_stem  embedded images are named `image_stem` and a number
 Result<XAsset, ImportError> export_x(const std::filesystem::path& bendy_file, const std::string& image_stem,
                                      Report& report, const ExportOptions& options = {});
 
-/// The same from memory; `bytes` start on a 16-byte boundary.
+/// As above, from memory; `bytes` must be 16-byte aligned.
 Result<XAsset, ImportError> export_x(Bytes bytes, const std::string& image_stem, Report& report,
                                      const ExportOptions& options = {});
 
 /// The constraints and chains of an object, and the markers and curves of its clips, as a rig file (spec/rig.md),
-/// "complete": convert --rig makes the same records of it, to the bit. Only ranges that a constraint's model has no use
-/// for are left out. \param object  passes check_values \param with_markers  and with curves
+/// marked "complete": convert --rig turns it into the same records, bit for bit. Only ranges that the constraint's
+/// model does not use are left out.
+/// \param object        passes check_values
+/// \param with_markers  also write markers and curves
 std::string write_rig(const ObjectView& object, bool with_markers = true);
 
 }  // namespace bendy::converter

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-// The mutable authoring model: what importers fill, passes rework and build_chunks writes. Everything here is decoded
-// to floats; the narrowest exact storage is chosen when chunks are built. glTF's conventions: metres, radians, seconds,
+// The mutable authoring model: importers fill it, passes rework it, build_chunks writes it. Everything here is decoded
+// to floats; build_chunks chooses the narrowest exact storage. glTF's conventions: metres, radians, seconds,
 // right-handed, Y up, column vectors, column-major matrices, quaternions as x y z w.
 namespace bendy::converter {
 
@@ -24,7 +24,8 @@ using bendy::kNone;
 ///     U = | scale.x  shear.x  shear.y |
 ///         |    0     scale.y  shear.z |
 ///         |    0        0     scale.z |
-/// so that every affine matrix can be held, also one with shear or without volume. Shear is zero for an ordinary TRS.
+/// so that every affine matrix can be held, including one with shear or without volume. Shear is zero for an ordinary
+/// TRS.
 struct Transform {
     glm::vec3 translation{0.0f};
     glm::vec4 rotation{0.0f, 0.0f, 0.0f, 1.0f};  ///< x y z w, unit
@@ -33,17 +34,17 @@ struct Transform {
 };
 
 struct Joint {
-    std::string name;              ///< UTF-8, may be empty or doubled
+    std::string name;              ///< UTF-8, may be empty or duplicated
     std::uint32_t parent = kNone;  ///< always smaller than the joint's own index; kNone: a root
     Transform rest;
-    std::vector<ConstraintRecord> constraints;  ///< at most one of each scope, that pass check_constraint
+    std::vector<ConstraintRecord> constraints;  ///< at most one of each scope; they pass check_constraint
     std::string extras;                         ///< JSON text or empty
-    std::string extensions;  ///< JSON object: the node's extensions that are kept as they came; or empty
+    std::string extensions;  ///< JSON object: the node's extensions that are kept unchanged; or empty
     std::string more;        ///< JSON object: see Scene::more
-    bool in_skin = false;    ///< a skin of the source names it, used or not; not written
+    bool in_skin = false;    ///< a skin of the source lists it, used or not; not written
 };
 
-/// An IK chain. A joint on the path from record.effector up to record.start may have a weight of its own in it.
+/// An IK chain. Each joint on the path from record.effector up to record.start may have its own weight.
 struct Chain {
     struct Weight {
         std::uint32_t joint = 0;
@@ -62,46 +63,46 @@ struct Submesh {
     std::vector<std::uint32_t> indices;  ///< into the mesh's vertices; 3, 2 or 1 per primitive, the source's order
 };
 
-/// One vertex stream that is not of the fixed kinds: texture coordinates, colours, the author's own attributes.
+/// A vertex stream that has no member of its own in Mesh: texture coordinates, colours, the author's attributes.
 struct Stream {
-    std::string name;              ///< of an author's attribute (`_TEMPERATURE`); empty for the others
-    std::uint32_t set = 0;         ///< n of TEXCOORD_n, COLOR_n; sets ascend but may leave numbers out
+    std::string name;              ///< name of an author's attribute (`_TEMPERATURE`); otherwise empty
+    std::uint32_t set = 0;         ///< n of TEXCOORD_n, COLOR_n; sets ascend, gaps are allowed
     std::uint32_t components = 0;  ///< 1 to 16
     std::vector<float> values;     ///< vertex count * components
 };
 
-/// Positions on a grid: each is minimum + step * a whole number, 0 to 65535, axis by axis, in floats and rounded after
-/// each operation.
+/// Positions on a grid: each is minimum + step * n with integer n, 0 to 65535, per axis, in float arithmetic rounded
+/// after each operation.
 struct FrameGrid {
     glm::vec3 minimum{0.0f};
     glm::vec3 step{0.0f};
 };
 
-/// A morph target: displacements per vertex; an empty vector means: this stream is not displaced.
+/// A morph target: displacements per vertex; an empty vector means that the stream is not displaced.
 struct MorphTarget {
     std::string name;
     float rest_weight = 0.0f;
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
-    std::vector<glm::vec3> tangents;  ///< xyz only, the handedness stays
-    /// A shape of the whole mesh that is stored as it is (FRMS): `positions`, which lie on `grid`, and `normals` are
-    /// the vertices' own, no displacements. The rest weight is 0; there are no tangents; all frames have normals or
-    /// none.
+    std::vector<glm::vec3> tangents;  ///< xyz only; handedness does not change
+    /// True: a complete shape of the mesh, stored as is (FRMS). `positions`, which lie on `grid`, and `normals` are
+    /// absolute, not displacements. The rest weight is 0; there are no tangents; either all frames have normals or none
+    /// has.
     bool is_frame = false;
     FrameGrid grid = {};
 };
 
-/// Which joints the `bones` of a mesh mean, and each one's inverse bind matrix (mesh space to joint space at bind
+/// The joints that the `bones` of a mesh refer to, with their inverse bind matrices (mesh space to joint space at bind
 /// time).
 struct Palette {
     std::vector<std::uint32_t> joints;    ///< indices into Scene::joints
-    std::vector<glm::mat4> inverse_bind;  ///< as many
+    std::vector<glm::mat4> inverse_bind;  ///< one per joint
 };
 
-/// Vertices that share one set of streams, one palette and one set of targets: what becomes a VECT chunk.
+/// Vertices that share one set of streams, one palette and one set of targets. Written as a VECT chunk.
 struct Mesh {
     std::string name;
-    std::uint32_t joint = kNone;         ///< the joint that carries the mesh; moves it when it is rigid
+    std::uint32_t joint = kNone;         ///< the joint that carries the mesh; moves it if it is rigid
     std::vector<glm::vec3> positions;    ///< in mesh space
     std::vector<glm::vec3> normals;      ///< empty, or one per vertex
     std::vector<glm::vec4> tangents;     ///< empty, or one per vertex: xyz, w = handedness +-1
@@ -110,45 +111,46 @@ struct Mesh {
     std::vector<Stream> attributes;      ///< the author's own, by name
     std::uint32_t influences = 0;        ///< per vertex; 0: rigid
     std::vector<std::uint32_t> bones;    ///< vertex count * influences, into the palette
-    std::vector<float> weights;          ///< as many; sum 1 per vertex, never negative
+    std::vector<float> weights;          ///< one per entry of `bones`; sum 1 per vertex, never negative
     Palette palette;
     std::vector<MorphTarget> targets;  ///< frames come last
-    /// Where `positions` lie on one: they are stored so, and the normals by number in a list, which the frames share.
-    /// It holds 256: frames should have no more different ones, those past it become the nearest.
+    /// Set if `positions` lie on a grid. They are then stored on it, and normals as indices into a list that all frames
+    /// share. The list holds 256; further normals are replaced by the nearest.
     std::optional<FrameGrid> grid;
     std::vector<Submesh> submeshes;
-    /// The collapse sequence, if the vertices are in its order: for vertex base and above the vertex that it collapses
-    /// to, always a smaller number; below base the vertex itself. Whoever reorders vertices must clear it. Empty: none.
+    /// The collapse sequence, if the vertices are in its order: from vertex base on, the vertex that each one collapses
+    /// to, always a smaller number; below base the vertex itself. Code that reorders vertices must clear it. Empty:
+    /// none.
     std::vector<std::uint32_t> collapse;
-    std::vector<std::uint8_t> joined;  ///< as many: 1 where a vertex goes together with the one before it
-    std::uint32_t base = 0;            ///< the first so many never collapse
+    std::vector<std::uint8_t> joined;  ///< one per vertex: 1 if it collapses together with the one before it
+    std::uint32_t base = 0;            ///< number of vertices that never collapse
     std::string extras;
     std::string more;  ///< JSON object: see Scene::more
 };
 
-/// How far the meshes' collapse sequences go for an error.
+/// How far each mesh's collapse sequence may go for a given error.
 struct LodLevel {
-    float error = 0.0f;                ///< metres, of any point of the surface, in the shapes that were looked at
-    std::vector<std::uint32_t> alive;  ///< vertices that are left, one number per mesh
+    float error = 0.0f;                ///< metres, of any point of the surface, in the shapes that were measured
+    std::vector<std::uint32_t> alive;  ///< number of vertices left, per mesh
 };
 
 struct Track {
     TrackPath path = TrackPath::translation;
     Interpolation interpolation = Interpolation::linear;
-    std::uint32_t target = kNone;  ///< joint, or for weights: mesh
-    std::uint32_t components = 0;  ///< 3, 4, 3, or the mesh's number of targets
+    std::uint32_t target = kNone;  ///< joint; for weights: mesh
+    std::uint32_t components = 0;  ///< 3, 4, 3, or the mesh's target count
     std::vector<float> times;      ///< seconds, strictly ascending, at least one
     std::vector<float> values;     ///< keys * components; cubic: in-tangent, value, out-tangent per key
 };
 
 inline constexpr std::size_t kMostCurveComponents = 4;
 
-/// A named curve of a clip: a number that is animated, or up to four, and is neither part of a joint's transform nor a
-/// morph target's weight.
+/// A named curve of a clip: one to four animated numbers that are neither part of a joint's transform nor a morph
+/// target's weight.
 struct Curve {
     std::string name;  ///< UTF-8, may be empty
-    /// Of the property, relative to the target, as glTF spells it: "pbrMetallicRoughness/baseColorFactor"; without a
-    /// target a JSON pointer. Different for all curves of a clip with the same target, or empty.
+    /// The property's path, relative to the target, in glTF's spelling: "pbrMetallicRoughness/baseColorFactor"; without
+    /// a target a JSON pointer. Unique among the curves of a clip with the same target, or empty.
     std::string path;
     CurveTarget kind = CurveTarget::nothing;
     std::uint32_t target = kNone;  ///< joint, material, mesh or texture, as `kind` says
@@ -161,25 +163,25 @@ struct Curve {
 /// A named time of a clip: a footstep, a hit, a sound.
 struct Marker {
     float seconds = 0.0f;  ///< between the clip's first and last key
-    std::string name;      ///< UTF-8, may be empty or doubled
+    std::string name;      ///< UTF-8, may be empty or duplicated
 };
 
-/// When a clip begins and ends, seconds on its time line.
+/// Start and end of a clip, in seconds on its time line.
 struct ClipSpan {
     float start = 0.0f;
     float end = 0.0f;
 
-    /// At a share of the way, 0 to 1; seconds.
+    /// The time, in seconds, at a fraction of the span, 0 to 1.
     [[nodiscard]] double at(double share) const { return start + share * (double{end} - start); }
     friend bool operator==(const ClipSpan&, const ClipSpan&) = default;
 };
 
-/// Frames of a mesh, one after another. Frame 0 is the mesh itself, frame k the k-th of its targets that are frames.
+/// Consecutive frames of a mesh. Frame 0 is the mesh itself, frame k the k-th of its targets that are frames.
 struct Play {
     std::uint32_t mesh = 0;
     std::uint32_t first = 0;
-    std::uint32_t frames = 1;  ///< 1 or more; frame k of them is at Clip::frame_start + k / Clip::frame_rate
-    bool closed = false;       ///< the first frame follows on the last one
+    std::uint32_t frames = 1;  ///< 1 or more; frame k is at Clip::frame_start + k / Clip::frame_rate
+    bool closed = false;       ///< the last frame is followed by the first
 };
 
 struct Clip {
@@ -188,21 +190,21 @@ struct Clip {
     std::vector<Track> tracks;  ///< at most one per target and path; may be empty
     std::string extras;
     std::vector<std::byte> packed = {};  ///< a PACK payload (packed_clip.h) with tracks that `tracks` lacks, or empty
-    std::vector<Marker> markers = {};    ///< times ascend, and may be equal
+    std::vector<Marker> markers = {};    ///< times ascend; equal times are allowed
     std::string more = {};               ///< JSON object: see Scene::more
-    /// Set where the clip is longer than its keys, or its keys are packed: it holds still before the first and after
-    /// the last key. Never shorter than the keys.
+    /// Set if the clip is longer than its keys, or its keys are packed: it holds the first and last pose outside its
+    /// keys. Never shorter than the keys.
     std::optional<ClipSpan> stated_span = {};
-    std::vector<Play> plays = {};  ///< at most one per mesh, which no track animates then
-    float frame_rate = 0.0f;       ///< of `plays`, per second; above 0 if there are any
-    float frame_start = 0.0f;      ///< of `plays`, seconds; no key is before it
+    std::vector<Play> plays = {};  ///< at most one per mesh, which then has no weights track
+    float frame_rate = 0.0f;       ///< frames per second of `plays`; above 0 if there are any
+    float frame_start = 0.0f;      ///< start of `plays`, seconds; no key is before it
     std::vector<Curve> curves = {};
 };
 
-/// One encoded image as it came: embedded bytes, or a reference to a file beside the output.
+/// One encoded image, unchanged: embedded bytes, or a reference to a file beside the output.
 struct Image {
     std::string name;
-    std::string media_type;        ///< image/png, image/jpeg, image/ktx2, image/webp, or as the source says
+    std::string media_type;        ///< image/png, image/jpeg, image/ktx2, image/webp, or the source's own value
     std::vector<std::byte> bytes;  ///< empty when `uri` is kept instead
     std::string uri;
 };
@@ -216,10 +218,10 @@ struct Texture {
     Wrap wrap_s = Wrap::repeat;
     Wrap wrap_t = Wrap::repeat;
     std::string extras;
-    std::string more;  ///< JSON object: see Scene::more; what it says of the images, the first texture with each says
+    std::string more;  ///< JSON object: see Scene::more; the first texture of each image also has the image's members
 };
 
-/// A use of a texture by a material, with KHR_texture_transform (rotation in radians, counter-clockwise).
+/// A material's use of a texture, with KHR_texture_transform (rotation in radians, counter-clockwise).
 struct TextureUse {
     std::uint32_t texture = kNone;
     std::uint32_t coords = 0;  ///< set number
@@ -252,18 +254,18 @@ struct Scene {
     std::vector<Chain> chains;
     std::vector<Mesh> meshes;
     std::vector<LodLevel> levels;  ///< by error; empty if no mesh has a collapse sequence
-    std::vector<Clip> clips;       ///< the source's order and number
+    std::vector<Clip> clips;       ///< in the source's order and numbering
     std::vector<Material> materials;
     std::vector<Image> images;
     std::vector<Texture> textures;
-    std::string extras;         ///< of the source's scene
-    std::string source_extras;  ///< of the source's root
-    std::string extensions;     ///< JSON object: the source's root extensions that are kept as they came; or empty
-    std::string asset;          ///< JSON object: who made the source, copyright, generator, with its extras
-    /// JSON object, or empty: what else the source says of its scene, in the shape of glTF's object. A member that is
-    /// an index in glTF is an object here, with what is said of the element that it names (spec/chunks/MORE.md).
+    std::string extras;         ///< from the source's scene
+    std::string source_extras;  ///< from the source's root
+    std::string extensions;     ///< JSON object: the source's root extensions that are kept unchanged; or empty
+    std::string asset;          ///< JSON object: glTF's `asset` (copyright, generator, ...) with its extras
+    /// JSON object, or empty: further members of the source's scene object, in glTF's structure. A member that is an
+    /// index in glTF is an object here, with the members of the element that it refers to (spec/chunks/MORE.md).
     std::string more;
-    std::string source_more;  ///< the same of the source's root
+    std::string source_more;  ///< likewise, of the source's root
 };
 
 }  // namespace bendy::converter

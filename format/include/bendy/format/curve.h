@@ -33,7 +33,7 @@ struct CurveView {
     std::uint32_t chunk = 0;
     std::string_view name;  ///< may be empty
     std::string_view path;  ///< path of the property relative to the target: "pbrMetallicRoughness/baseColorFactor"; a
-                            ///< JSON pointer if there is no target; may be empty
+                            ///< JSON pointer for a curve without a target; may be empty
     CurveTarget kind = CurveTarget::nothing;
     std::uint32_t target = kNone;  ///< joint, material in HEAD, mesh or texture, depending on `kind`
     std::uint32_t components = 1;  ///< 1 to 4

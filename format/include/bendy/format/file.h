@@ -39,9 +39,9 @@ private:
     void* file_ = nullptr;  ///< if mapped: its entry for mapped_file_at(); on Windows, the handle that keeps others out
 };
 
-/// For a handler of SIGBUS: the name of the file that is mapped at the address, in the bytes that MappedFile::open was
-/// given; null if there is none, and always on Windows. May be called from a signal handler; the text lives as long as
-/// the mapping.
+/// For a handler of SIGBUS: returns the name of the file that is mapped at the address, as the bytes that
+/// MappedFile::open was given; null if there is none, and always on Windows. Safe in signal handlers; the text lives as
+/// long as the mapping.
 const char* mapped_file_at(const void* address) noexcept;
 
 /// Writes a whole file or nothing: into a new file beside `path`, flushed to disk, then renamed over it. On failure the
@@ -70,9 +70,9 @@ struct WriteFailure {
 /// `.bendy-*`.
 Result<void, WriteFailure> write_files(std::span<const FileContents> files);
 
-/// For a handler of signals that end the program: removes the files that write_file and write_files, on any thread,
-/// have made beside those that they write. Waits until files that are being replaced together are all replaced. May be
-/// called from a signal handler on any thread; afterwards nothing can be written.
+/// For a handler of signals that end the program: removes the temporary files of write_file and write_files on all
+/// threads. Waits until files that are being replaced together are all replaced. Safe in signal handlers on any thread;
+/// afterwards nothing can be written.
 void remove_temporary_files() noexcept;
 
 }  // namespace bendy

@@ -10,10 +10,11 @@
 #include <string_view>
 #include <vector>
 
-// How a user's text refers to a named and numbered thing, and messages about names that a user mistyped.
+// How a user's text refers to a named and numbered thing, and messages about mistyped names.
 namespace BENDY_PUBLIC bendy {
 
-/// What a text refers to. "#3" is the number 3, "=3" the name "3", "3" either of them; any other text is a name.
+/// The thing that a text refers to. "#3" is the number 3, "=3" the name "3", "3" either of them; any other text is a
+/// name.
 struct ThingKey {
     std::optional<std::string_view> name;  ///< a part of the text
     std::optional<std::size_t> number;
@@ -40,7 +41,7 @@ std::string_view nearest_name(std::span<const std::string_view> names, std::stri
 /// Returns `; did you mean "Walk"?` if some name is similar to `wanted`; otherwise nothing.
 std::string did_you_mean(std::span<const std::string_view> names, std::string_view wanted);
 
-/// Returns a message for a name that does not exist: `there is no clip "Wlak"; did you mean "Walk"?`, with a list of
+/// Returns a message for a name that does not exist, with a similar name, `...; did you mean "Walk"?`, and a list of
 /// the existing names if these are few, or if none is similar. Names are as in the file: escape them for a terminal.
 std::string no_such_name(std::string_view kind, std::string_view wanted, std::span<const std::string_view> names);
 

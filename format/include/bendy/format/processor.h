@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-/// The processor that is compiled for, if there are kernels for it: see bendy/runtime/kernels.h.
+/// The target processor, if there are kernels for it: see bendy/runtime/kernels.h.
 #if defined(__x86_64__) || (defined(_M_X64) && !defined(_M_ARM64EC))
 #define BENDY_X86_64
 #elif defined(__aarch64__) || defined(_M_ARM64)

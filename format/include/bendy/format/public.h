@@ -1,13 +1,13 @@
 #pragma once
 
-/// Defined where the sources may use what GCC and clang add to the language: attributes and built-in functions.
-/// BENDY_STANDARD_CPP does without, as compilers that have none of it must.
+/// Defined if the sources may use extensions of GCC and clang: attributes and built-in functions. Define
+/// BENDY_STANDARD_CPP for compilers without them.
 #if defined(__GNUC__) && !defined(BENDY_STANDARD_CPP)
 #define BENDY_GNU
 #endif
 
-/// `inline`, and to a compiler that optimises for speed, an order: for functions whose call costs as much as their
-/// work. And the opposite: for functions that are seldom called, and would spoil the code around the call.
+/// `inline`, and when optimising for speed a command rather than a hint: for functions whose call costs as much as
+/// their work. And its opposite, for rarely called functions that would bloat the surrounding code.
 #if defined(BENDY_GNU) && defined(__OPTIMIZE_SIZE__)
 #define BENDY_ALWAYS_INLINE inline
 #define BENDY_NOINLINE [[gnu::noinline]]

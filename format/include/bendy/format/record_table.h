@@ -33,18 +33,19 @@ constexpr std::uint64_t field_type_size(FieldType type) {
     return kSizes[static_cast<std::size_t>(type)];
 }
 
-/// What an index can refer to. Joints, meshes and chains are numbered within their object, materials and textures
-/// within HEAD; for any_material, numbers with kLocalMaterial are among the joint's own. Frames are those of a mesh.
+/// The kinds of things that an index can refer to. Joints, meshes and chains are numbered within their object,
+/// materials and textures within HEAD; for any_material, numbers with kLocalMaterial are among the joint's own. Frames
+/// are those of a mesh.
 enum class Entity : std::uint8_t { nothing, joint, material, any_material, mesh, texture, chain, frame };
 inline constexpr unsigned kEntities = 8;
 /// "joint", "mesh", ...; empty for nothing.
 std::string_view name_of(Entity entity);
 
-/// What the number in a field refers to.
+/// The kind of thing that the number in a field refers to.
 struct Reference {
     static constexpr std::size_t kMostChoices = 8;
 
-    Entity entity = Entity::nothing;             ///< if there is no selector
+    Entity entity = Entity::nothing;             ///< without a selector
     std::string_view selector;                   ///< field of the same record that picks one of `choices`; or empty
     std::array<Entity, kMostChoices> choices{};  ///< by the selector's value
     bool is_optional = false;                    ///< kNone is allowed; otherwise the record is removed with what it

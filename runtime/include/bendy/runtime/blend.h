@@ -32,7 +32,7 @@ namespace BENDY_PUBLIC bendy {
                                           std::span<const float> mask = {});
 
 /// Returns a mask: `inside` for the joint and its descendants, such as an upper body or an arm, and `outside` for all
-/// others, which is all of them if there is no such joint. One number per joint.
+/// others; for all joints if the joint does not exist. One number per joint.
 [[nodiscard]] std::vector<float> mask_below(const Model& model, std::uint32_t joint, float inside = 1.0f,
                                             float outside = 0.0f);
 

@@ -46,7 +46,7 @@ public:
 
     [[nodiscard]] const Model& model() const { return model_; }
     /// The box of the vertices that the joint moves, in joint space, with morph target weights 0; empty if it moves
-    /// none, or if there is no such joint.
+    /// none, or if the joint does not exist.
     [[nodiscard]] Box joint(std::uint32_t joint) const;
 
     // Boxes for a pose, in model space. Errors: other_model for a pose of another model, out_of_range.

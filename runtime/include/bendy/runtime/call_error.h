@@ -12,7 +12,7 @@ enum class CallError : std::uint8_t {
     not_finite,    ///< a number is not finite
     other_model,   ///< arguments belong to different models, or a clip or chain is not one of the model's own: a copy
                    ///< of one is not either
-    out_of_range,  ///< there is no mesh, joint, vertex or worker with that number
+    out_of_range,  ///< no mesh, joint, vertex or worker has that number
     wrong_size,    ///< a mask or a list of weights does not have one number for each joint or target
     output_too_short,  ///< a non-empty output has no room for everything that would be written
     stride_too_small,  ///< an output's stride is smaller than the data written per vertex

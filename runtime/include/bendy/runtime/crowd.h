@@ -71,7 +71,7 @@ public:
 
     /// Number of matrices of all meshes together, and the index of a mesh's first one. A skinned mesh has one for each
     /// entry of its bind palette, in order; neighbouring meshes with the same bind palette share them. A rigid mesh has
-    /// one, of the joint that moves its first vertex. If there is no such mesh, the index is palette_size().
+    /// one, of the joint that moves its first vertex. For a mesh that does not exist, the index is palette_size().
     [[nodiscard]] std::size_t palette_size() const { return first_entry_.back(); }
     [[nodiscard]] std::size_t first_entry(std::uint32_t mesh) const {
         return mesh < first_entry_.size() ? first_entry_[mesh] : palette_size();

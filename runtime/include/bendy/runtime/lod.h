@@ -23,12 +23,12 @@ public:
 
     /// Number of triangles at this level, in all meshes; lines and points are not counted.
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
-    /// Number of vertices of a mesh that are alive: the first ones. `indices` refers to no others. 0 if there is no
-    /// such mesh.
+    /// Number of vertices of a mesh that are alive: the first ones. `indices` refers to no others. 0 if the mesh does
+    /// not exist.
     [[nodiscard]] std::uint32_t vertices(std::uint32_t mesh) const {
         return mesh < meshes_.size() ? meshes_[mesh].vertices : 0;
     }
-    /// The mesh's index list at this level; `submeshes` are ranges of it. Empty if there is no such mesh.
+    /// The mesh's index list at this level; `submeshes` are ranges of it. Empty if the mesh does not exist.
     [[nodiscard]] std::span<const std::uint32_t> indices(std::uint32_t mesh) const {
         if (mesh >= meshes_.size()) return {};
         return std::span(meshes_[mesh].indices).first(meshes_[mesh].corners);
@@ -49,7 +49,7 @@ private:
                                                 // alive
         std::vector<std::uint32_t> counts;      // number of triangles alive at base vertices, base + 1, ...
         std::vector<std::uint32_t> targets;     // for each vertex from base on, the one that it collapses to
-        std::vector<std::uint32_t> now;         // for each vertex, the one that stands in for it at this level
+        std::vector<std::uint32_t> now;         // for each vertex, the one that it has collapsed to at this level
         const MeshCollapseView* collapse = nullptr;
     };
 

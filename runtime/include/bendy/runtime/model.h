@@ -134,7 +134,7 @@ public:
     [[nodiscard]] const Clip* clip(std::string_view name) const;
     [[nodiscard]] const Chain* chain(std::string_view name) const;
     [[nodiscard]] std::uint32_t joint(std::string_view name) const;
-    /// The constraint of a joint in poses, and in IK solvers; null if it has none, or if there is no such joint.
+    /// The constraint of a joint in poses, and in IK solvers; null if it has none, or if the joint does not exist.
     [[nodiscard]] const Constraint* constraint(std::uint32_t joint) const;
     [[nodiscard]] const Constraint* ik_constraint(std::uint32_t joint) const;
     /// The chains' numbers in solving order: ascending priority, then file order.
@@ -143,7 +143,7 @@ public:
     [[nodiscard]] std::uint32_t longest_chain() const;
 
     /// Number of vertices of all meshes together, mesh after mesh; and the index of a mesh's first one, which is that
-    /// number if there is no such mesh.
+    /// number if the mesh does not exist.
     [[nodiscard]] std::uint64_t vertex_count() const;
     [[nodiscard]] std::uint64_t first_vertex(std::uint32_t mesh) const;
     /// The same for morph targets.
@@ -151,7 +151,7 @@ public:
     [[nodiscard]] std::uint32_t first_morph_target(std::uint32_t mesh) const;
     /// Number of entries of the largest bind palette.
     [[nodiscard]] std::uint32_t largest_palette() const;
-    /// Returns the joint that moves a vertex of a rigid mesh; kNone if none does, or if there is no such vertex.
+    /// Returns the joint that moves a vertex of a rigid mesh; kNone if none does, or if the vertex does not exist.
     [[nodiscard]] std::uint32_t rigid_mover(std::uint32_t mesh, std::uint32_t vertex) const;
     /// True if that is the same for all vertices of the mesh.
     [[nodiscard]] bool has_one_mover(std::uint32_t mesh) const;

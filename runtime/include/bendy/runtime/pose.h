@@ -54,8 +54,8 @@ public:
     /// Valid until the pose changes.
     [[nodiscard]] std::span<const glm::mat4> model_space();
     /// The skinning palette of a mesh, for skinning elsewhere: model space * inverse bind matrix, one entry per palette
-    /// entry of the mesh; empty for a rigid mesh, and if there is no such mesh. Recomputed if the local transforms have
-    /// changed. Valid until the pose changes, is skinned, or the palette of another mesh is requested.
+    /// entry of the mesh; empty for a rigid mesh, and if the mesh does not exist. Recomputed if the local transforms
+    /// have changed. Valid until the pose changes, is skinned, or the palette of another mesh is requested.
     [[nodiscard]] std::span<const PaletteMatrix> palette(std::uint32_t mesh);
 
 private:

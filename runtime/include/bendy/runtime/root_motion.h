@@ -51,7 +51,7 @@ struct RootAxes {
 /// another model.
 class RootPath {
 public:
-    /// \param joint  a joint of the model; if the model has no such joint, there is no motion
+    /// \param joint  a joint of the model; without such a joint, the motion is empty
     RootPath(const Model& model, std::uint32_t joint, const RootAxes& axes = {});
 
     /// Returns the motion from the root's rest pose to its position in the clip at that time, in model space: the

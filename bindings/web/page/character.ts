@@ -1,0 +1,226 @@
+// A character that plays clips and reaches for targets: the runtime, and the three.js objects that it moves.
+import * as THREE from 'three';
+import { type Chain, type Clip, type Constraint, CrossFade, LevelOfDetail, Model, Playback, Pose } from '../src/index.js';
+import { BendyAnimator, type BendyCharacter, BendyLoader, setLevelOfDetail } from '../src/three/index.js';
+import { drawRange } from './ranges.js';
+
+/** The rotations that the constraint of a joint allows. */
+export interface Range {
+  constraint: Constraint;
+  object: THREE.Object3D;
+}
+
+export class Character {
+  /** The targets of chains in model space, by chain number. */
+  readonly targets = new Map<number, THREE.Vector3>();
+  /** Weights of morph targets that replace those of the clip, by their numbers. */
+  readonly weights = new Map<number, number>();
+  /** The results of the chains that reach. */
+  readonly results = new Map<number, string>();
+  obeysConstraints = true;
+  clip = 0;
+  readonly clips: readonly Clip[];
+  readonly chains: readonly Chain[];
+  /** The chain that looks at the pointer. */
+  readonly lookChain: Chain | undefined;
+  /** The chains that the user can drag. */
+  readonly limbs: readonly Chain[];
+  readonly #model: Model;
+  readonly #pose: Pose;
+  readonly #animator: BendyAnimator;
+  readonly #detail: LevelOfDetail;
+  readonly #crossFade: CrossFade;
+  readonly #box: THREE.Box3;
+  #playback: Playback | undefined;
+  #matrices: Float32Array; // of the joints, after the last update
+
+  private constructor(readonly result: BendyCharacter) {
+    this.#model = result.model;
+    this.#animator = new BendyAnimator(result);
+    this.#pose = this.#animator.pose;
+    this.clips = [...this.#model.clips];
+    this.chains = [...this.#model.chains];
+    this.lookChain = this.chains.find(({ name, solver }) => solver === 'aim' && /look|head/i.test(name));
+    this.limbs = this.chains.filter((chain) => chain !== this.lookChain);
+    this.#detail = new LevelOfDetail(this.#model);
+    this.#crossFade = new CrossFade(this.#model);
+    this.#matrices = this.#pose.modelMatrices().slice();
+    this.#box = this.#measure();
+  }
+
+  /** Opens a bendy file. Rejects with a BendyError. `findFile`: the bytes of an image that the file links to. */
+  static async open(bytes: Uint8Array, findFile: (uri: string) => Uint8Array | undefined): Promise<Character> {
+    const manager = new THREE.LoadingManager();
+    const addresses: string[] = [];
+    manager.setURLModifier((uri) => {
+      if (/^data:/i.test(uri)) return uri;
+      const found = findFile(uri);
+      if (!found) throw new Error('it is not among the files that were given: give both at once');
+      const address = URL.createObjectURL(new Blob([found as BlobPart]));
+      addresses.push(address);
+      return address;
+    });
+    try {
+      return new Character(await new BendyLoader(manager).parseAsync(bytes));
+    } finally {
+      for (const address of addresses) URL.revokeObjectURL(address);
+    }
+  }
+
+  /** Why images are missing. */
+  get warnings(): readonly string[] {
+    return this.result.warnings;
+  }
+
+  get object(): THREE.Object3D {
+    return this.result.scene;
+  }
+  get morphTargets(): { name: string; number: number; weight: number }[] {
+    return [...this.#model.morphTargets].map(({ name, number, restWeight }) => ({ name, number, weight: restWeight }));
+  }
+  get hasLevels(): boolean {
+    return this.#model.hasLevels;
+  }
+  get triangles(): number {
+    return this.#detail.triangles;
+  }
+  get facts(): string {
+    const { joints, clips, vertexCount } = this.#model;
+    const counted = (count: number, one: string, many: string) => `${count.toLocaleString('en')} ${count === 1 ? one : many}`;
+    return [counted(vertexCount, 'vertex', 'vertices'), counted(joints.length, 'joint', 'joints'), counted(clips.length, 'clip', 'clips')].join(', ');
+  }
+  /** The initial clip: a walk if there is one, otherwise the first. */
+  get firstClip(): number {
+    return Math.max(0, this.clips.findIndex(({ name }) => /walk/i.test(name)));
+  }
+
+  play(clip: number, fade: number): void {
+    this.clip = clip;
+    const playback = new Playback(this.#model, clip);
+    playback.mode = 'repeat';
+    this.#crossFade.play(clip, { playback, fade: this.#playback ? fade : 0 });
+    this.#playback?.dispose();
+    this.#playback = playback;
+  }
+
+  get seconds(): number {
+    return this.#playback ? this.#crossFade.getPlayback(this.#playback).seconds : 0;
+  }
+  get share(): number {
+    return this.#playback ? this.#crossFade.getPlayback(this.#playback).share : 0;
+  }
+  seek(share: number): void {
+    if (this.#playback) this.#crossFade.setPlayback(this.#crossFade.getPlayback(this.#playback).seekShare(share));
+  }
+  step(seconds: number): void {
+    if (this.#playback) this.#crossFade.advance(seconds);
+  }
+
+  /** Sets the fraction of the triangles to draw. */
+  setShare(share: number): void {
+    this.#detail.setShare(share);
+    setLevelOfDetail(this.result, share);
+  }
+
+  /** Advances the clips, reaches, and moves the three.js objects. */
+  update(seconds: number, pointer: THREE.Vector3 | undefined): void {
+    if (this.#playback) {
+      this.#crossFade.advance(seconds);
+      this.#crossFade.sample(this.#pose);
+    } else {
+      this.#pose.reset();
+    }
+    for (const [target, weight] of this.weights) this.#pose.setMorphWeights([weight], target);
+    this.results.clear();
+    for (const chain of this.chains) {
+      const target = this.targets.get(chain.number) ?? (chain === this.lookChain ? pointer : undefined);
+      if (!target) continue;
+      const { status, distance, angle } = this.#pose.reach(chain.number, target.toArray(), { obeyConstraints: this.obeysConstraints });
+      const words = { reached: 'reached', aimed: 'aimed', out_of_reach: 'too far', not_reached: 'as near as it can' }[status];
+      const left = chain.solver === 'aim' ? `${((180 / Math.PI) * angle).toFixed(1)}°` : `${(1000 * distance).toFixed(0)} mm`;
+      this.results.set(chain.number, status === 'reached' || status === 'aimed' ? words : `${words}, ${left}`);
+    }
+    this.#animator.apply();
+    this.#matrices = this.#pose.modelMatrices().slice();
+  }
+
+  /** The position of a chain's tip in model space. */
+  tip(number: number): THREE.Vector3 {
+    const { links, tipOffset } = this.#model.chains[number]!;
+    return new THREE.Vector3(...tipOffset).applyMatrix4(this.#matrix(links.at(-1)!));
+  }
+
+  /** The ranges of the constraints of a chain's joints, each to be placed at its joint. */
+  ranges(number: number): Range[] {
+    const { links, tipOffset } = this.#model.chains[number]!;
+    return this.#model.constraints
+      .filter(({ joint, scope }) => links.includes(joint) && scope !== 'all_but_ik')
+      .map((constraint) => {
+        const next = links[links.indexOf(constraint.joint) + 1];
+        const bone = new THREE.Vector3(...(next === undefined ? tipOffset : this.#model.joints[next]!.rest.translation));
+        return { constraint, object: drawRange(constraint, bone.applyQuaternion(new THREE.Quaternion(...constraint.frame).invert())) };
+      });
+  }
+
+  /** Places a range at its joint: in the constraint's frame, which is the parent's with the joint at rest. */
+  placeRange({ constraint, object }: Range, radius: number): void {
+    const joint = this.#model.joints[constraint.joint]!;
+    const parent = joint.parent === null ? new THREE.Matrix4() : this.#matrix(joint.parent);
+    const rest = new THREE.Quaternion(...joint.rest.rotation).multiply(new THREE.Quaternion(...constraint.frame));
+    const place = new THREE.Vector3().setFromMatrixPosition(this.#matrix(constraint.joint));
+    const turn = new THREE.Quaternion().setFromRotationMatrix(new THREE.Matrix4().extractRotation(parent)).multiply(rest);
+    object.matrix.compose(place, turn, new THREE.Vector3(radius, radius, radius));
+  }
+
+  get hasMesh(): boolean {
+    return this.#model.vertexCount !== 0;
+  }
+
+  /** Lines from joints to their children, in model space: x y z of both ends of each. */
+  bones(points?: Float32Array): Float32Array {
+    const children = this.#model.joints.filter(({ parent }) => parent !== null);
+    const out = points ?? new Float32Array(6 * children.length);
+    for (const [k, { number, parent }] of children.entries()) {
+      for (const [end, joint] of [parent!, number].entries()) {
+        for (let c = 0; c < 3; ++c) out[6 * k + 3 * end + c] = this.#matrices[16 * joint + 12 + c]!;
+      }
+    }
+    return out;
+  }
+
+  /** A box around the character at rest and in its first clip. */
+  box(): THREE.Box3 {
+    return this.#box;
+  }
+
+  dispose(): void {
+    for (const one of [this.#playback, this.#crossFade, this.#detail, this.#animator]) one?.dispose();
+    this.object.traverse((object) => {
+      const { geometry, material } = object as THREE.Mesh;
+      geometry?.dispose();
+      for (const one of [material ?? []].flat()) {
+        for (const value of Object.values(one)) if (value instanceof THREE.Texture) value.dispose();
+        one.dispose();
+      }
+    });
+    this.#model.dispose();
+  }
+
+  #matrix(joint: number): THREE.Matrix4 {
+    return new THREE.Matrix4().fromArray(this.#matrices, 16 * joint);
+  }
+
+  #measure(): THREE.Box3 {
+    const box = new THREE.Box3();
+    const clip = this.clips[this.firstClip];
+    this.#pose.reset();
+    if (clip) this.#pose.sample(clip.number, clip.start);
+    const { positions } = this.#pose.skin();
+    for (let at = 0; at < positions.length; at += 3) box.expandByPoint(new THREE.Vector3().fromArray(positions, at));
+    if (box.isEmpty()) {
+      for (let joint = 0; joint < this.#model.joints.length; ++joint)
+        box.expandByPoint(new THREE.Vector3().setFromMatrixPosition(this.#matrix(joint)));
+    }
+    return box.isEmpty() ? new THREE.Box3(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1)) : box;
+  }
+}

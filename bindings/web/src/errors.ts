@@ -1,0 +1,30 @@
+import type { Status } from './generated/bindings.js';
+
+/**
+ * The kind of an error. In a file: `malformed` (damaged, or not a bendy file), `invalid` (its structure is valid, its content
+ * is not), `unsupported` (valid, but this version cannot read it). In a call: `bad_argument`, `not_found`, `out_of_memory`,
+ * `disposed`. In the module: `io` (it could not be loaded). In the tools: `conversion` (the source cannot be converted), `edit` (the
+ * file cannot be changed in this way).
+ */
+export type ErrorKind = Exclude<Status, 'ok'> | 'disposed' | 'conversion' | 'edit';
+
+/** Every error that this package throws. */
+export class BendyError extends Error {
+  /** The kind of the error. */
+  readonly kind: ErrorKind;
+  /** A word that never changes: for a file the code of `bendy validate`, "CHUNK_TOO_LONG"; otherwise the kind, "NOT_FOUND". */
+  readonly code: string;
+  /** The path of the faulty chunk, "HEAD/OBJE/SKIN[1]"; "" if the file is not the cause. */
+  readonly path: string;
+  /** The position of the fault, in bytes from the start of the file; 0 if the file is not the cause. */
+  readonly offset: number;
+
+  constructor(kind: ErrorKind, message: string, code: string = kind.toUpperCase(), path = '', offset = 0) {
+    super(message);
+    this.name = 'BendyError';
+    this.kind = kind;
+    this.code = code;
+    this.path = path;
+    this.offset = offset;
+  }
+}

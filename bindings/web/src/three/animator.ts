@@ -1,0 +1,258 @@
+import {
+  Bone,
+  BufferAttribute,
+  type BufferGeometry,
+  DynamicDrawUsage,
+  Matrix4,
+  type Object3D,
+  Quaternion,
+  type QuaternionLike,
+  Skeleton,
+  SkinnedMesh,
+  Vector3,
+  type Vector3Like,
+} from 'three';
+import {
+  type Chain,
+  type Clip,
+  CrossFade,
+  type Key,
+  type PlayOptions,
+  Playback,
+  type Pose,
+  type ReachOptions,
+  type ReachResult,
+  type SkinOptions,
+} from '../index.js';
+import type { BendyCharacter } from './character.js';
+import { withIndex } from './parts.js';
+
+/** Options of a BendyAnimator. */
+export interface AnimatorOptions {
+  /**
+   * Who skins the vertices. `gpu`, if not given: three.js, by the bones. `wasm`: the runtime, into attributes of the geometries;
+   * the bones move as well.
+   */
+  skin?: 'gpu' | 'wasm';
+  /** With `wasm`: the skinning method. */
+  method?: NonNullable<SkinOptions['method']>;
+}
+
+/** Options of `BendyAnimator.play`. */
+export interface AnimatorPlayOptions extends Omit<PlayOptions, 'playback'> {
+  /** 1, if not given: as authored. */
+  speed?: number;
+  /** Whether the clip repeats; as the clip says if not given. */
+  loop?: boolean;
+}
+
+/** Options of `BendyAnimator.reach`. */
+export interface AnimatorReachOptions extends Omit<ReachOptions, 'rotation' | 'pole'> {
+  /** The desired orientation of the tip. */
+  rotation?: QuaternionLike;
+  /** A point to bend towards: two-bone and aim. */
+  pole?: Vector3Like;
+  /** The space of target, rotation and pole: three.js's world, if not given, or the model's own space, that of `scene`. */
+  space?: 'world' | 'model';
+}
+
+/** A skinned object whose vertices the runtime computes, and its original state. */
+interface Skinned {
+  readonly object: SkinnedMesh;
+  readonly geometry: BufferGeometry;
+  readonly skeleton: Skeleton;
+  readonly wasCulled: boolean;
+}
+
+/** The attributes that the parts of a mesh share. */
+interface Attributes {
+  readonly position: BufferAttribute;
+  readonly normal: BufferAttribute | null;
+  readonly tangent: BufferAttribute | null;
+}
+
+const toModel = new Matrix4();
+const point = new Vector3();
+const turn = new Quaternion();
+
+/**
+ * Animates a character by Bendy's runtime: plays and blends clips, and reaches within the joints' limits.
+ *
+ *     const animator = new BendyAnimator(character).play('Walk');
+ *     // each frame
+ *     animator.update(seconds, () => animator.reach('LeftArm', target));
+ *
+ * Its methods change `pose`; `update` and `apply` write it to the joints, the morph targets and, with `skin: 'wasm'`, the vertices.
+ */
+export class BendyAnimator {
+  readonly character: BendyCharacter;
+  /** The current pose, for anything that the methods here do not offer. */
+  readonly pose: Pose;
+  readonly #fade: CrossFade;
+  readonly #other: Pose;
+  readonly #method: NonNullable<SkinOptions['method']>;
+  readonly #skinned: Skinned[] = [];
+  readonly #attributes = new Map<number, Attributes>();
+
+  /** Throws OUT_OF_MEMORY, DISPOSED. */
+  constructor(character: BendyCharacter, options: AnimatorOptions = {}) {
+    const { model } = character;
+    this.character = character;
+    this.pose = model.pose();
+    this.#other = model.pose();
+    this.#fade = new CrossFade(model);
+    this.#method = options.method ?? 'linear';
+    if (options.skin === 'wasm') this.#skinByRuntime();
+  }
+
+  /** Sets the pose to a clip at a time on its time line, in seconds. Throws NOT_FOUND, BAD_ARGUMENT. */
+  sample(clip: Key<Clip>, seconds: number): this {
+    this.pose.sample(clip, seconds);
+    return this;
+  }
+
+  /** Blends the pose towards a clip at a time: weight 0 to 1, `mask` scales it per joint. Throws NOT_FOUND, BAD_ARGUMENT. */
+  blend(clip: Key<Clip>, seconds: number, weight: number, mask?: ArrayLike<number>): this {
+    this.pose.blend(this.#other.sample(clip, seconds), weight, mask);
+    return this;
+  }
+
+  /** Starts a clip, which `update` plays and which fades in over what plays now. Throws NOT_FOUND, BAD_ARGUMENT. */
+  play(clip: Key<Clip>, options: AnimatorPlayOptions = {}): this {
+    const { speed, loop, ...rest } = options;
+    const playback = new Playback(this.character.model, clip);
+    try {
+      if (speed !== undefined) playback.speed = speed;
+      if (loop !== undefined) playback.mode = loop ? 'repeat' : 'once';
+      if (playback.speed < 0) playback.seekShare(1);
+      this.#fade.play(clip, { ...rest, playback });
+    } finally {
+      playback.dispose();
+    }
+    return this;
+  }
+
+  /** As `play`, with a fade of this many seconds. */
+  crossFade(clip: Key<Clip>, seconds: number, options: Omit<AnimatorPlayOptions, 'fade'> = {}): this {
+    return this.play(clip, { ...options, fade: seconds });
+  }
+
+  /**
+   * Moves an IK chain so that its tip reaches a target, within the joints' limits, starting from the current pose. Lengths in
+   * options and result are metres of the model. Throws NOT_FOUND, BAD_ARGUMENT.
+   */
+  reach(chain: Key<Chain>, target: Vector3Like, options: AnimatorReachOptions = {}): ReachResult {
+    const { rotation, pole, space, ...rest } = options;
+    const isWorld = space !== 'model';
+    if (isWorld) {
+      this.character.scene.updateWorldMatrix(true, false);
+      toModel.copy(this.character.scene.matrixWorld).invert();
+    }
+    const place = (p: Vector3Like): number[] => (isWorld ? point.copy(p).applyMatrix4(toModel) : point.copy(p)).toArray();
+    const given: ReachOptions = rest;
+    if (pole !== undefined) given.pole = place(pole);
+    if (rotation !== undefined) {
+      turn.set(rotation.x, rotation.y, rotation.z, rotation.w);
+      if (isWorld) turn.premultiply(this.character.scene.getWorldQuaternion(new Quaternion()).invert());
+      given.rotation = turn.normalize().toArray();
+    }
+    return this.pose.reach(chain, place(target), given);
+  }
+
+  /**
+   * Advances what plays by seconds, sets the pose to it and writes it. `adjust` is called in between: it may blend and reach. If
+   * nothing plays, the pose stays, and is written.
+   */
+  update(seconds: number, adjust?: (animator: this) => void): this {
+    if (this.#fade.playing.length > 0) this.#fade.advance(seconds).sample(this.pose);
+    adjust?.(this);
+    return this.apply();
+  }
+
+  /** Writes the pose. */
+  apply(): this {
+    const { joints, parts, model } = this.character;
+    const { locals } = this.pose;
+    joints.forEach((joint, k) => {
+      joint.quaternion.fromArray(locals, 10 * k);
+      joint.position.fromArray(locals, 10 * k + 4);
+      joint.scale.fromArray(locals, 10 * k + 7);
+    });
+    if (model.morphTargets.length > 0) {
+      const weights = this.pose.morphWeights;
+      for (const { object, mesh } of parts) {
+        if (object.morphTargetInfluences === undefined) continue;
+        const first = model.meshes[mesh]!.morphTargets[0]?.number ?? 0;
+        for (let k = 0; k < object.morphTargetInfluences.length; ++k) object.morphTargetInfluences[k] = weights[first + k]!;
+      }
+    }
+    for (const [mesh, { position, normal, tangent }] of this.#attributes) {
+      const options = { mesh, normals: normal !== null, tangents: tangent !== null, method: this.#method };
+      const skinned = this.pose.skin(options);
+      write(position, skinned.positions);
+      if (normal !== null) write(normal, skinned.normals);
+      if (tangent !== null) write(tangent, skinned.tangents);
+    }
+    return this;
+  }
+
+  /** Releases the animator's memory. Vertices that the runtime has skinned are skinned by three.js again. */
+  dispose(): void {
+    for (const { object, geometry, skeleton, wasCulled } of this.#skinned) {
+      const { drawRange } = object.geometry;
+      geometry.setDrawRange(drawRange.start, drawRange.count);
+      object.geometry.dispose();
+      object.skeleton.dispose();
+      object.geometry = geometry;
+      object.frustumCulled = wasCulled;
+      object.bind(skeleton, object.bindMatrix);
+    }
+    this.#skinned.length = 0;
+    this.#attributes.clear();
+    this.#fade.dispose();
+    this.#other.dispose();
+    this.pose.dispose();
+  }
+
+  /**
+   * Gives the skinned objects geometries whose vertices are in model space, without morph targets, and one bone that carries model
+   * space to the world.
+   */
+  #skinByRuntime(): void {
+    const { scene, parts, model } = this.character;
+    for (const { object, mesh: number } of parts) {
+      if (!(object instanceof SkinnedMesh)) continue;
+      const before = object.geometry as BufferGeometry;
+      const mesh = model.meshes[number]!;
+      let attributes = this.#attributes.get(number);
+      if (attributes === undefined) {
+        const copy = (name: string): BufferAttribute =>
+          (before.getAttribute(name) as BufferAttribute).clone().setUsage(DynamicDrawUsage);
+        attributes = {
+          position: copy('position'),
+          normal: mesh.hasNormals ? copy('normal') : null,
+          tangent: mesh.hasTangents ? copy('tangent') : null,
+        };
+        this.#attributes.set(number, attributes);
+      }
+      const after = withIndex(before, before.index);
+      after.morphAttributes = {};
+      for (const [name, attribute] of Object.entries(attributes)) {
+        if (attribute !== null) after.setAttribute(name, attribute as BufferAttribute);
+      }
+      const first = new Float32Array(4 * mesh.vertexCount).map((_, k) => (k % 4 === 0 ? 1 : 0));
+      after.setAttribute('skinIndex', new BufferAttribute(new Uint8Array(4 * mesh.vertexCount), 4));
+      after.setAttribute('skinWeight', new BufferAttribute(first, 4));
+      this.#skinned.push({ object, geometry: before, skeleton: object.skeleton, wasCulled: object.frustumCulled });
+      object.geometry = after;
+      object.frustumCulled = false; // the bounds of the vertices change from frame to frame
+      object.bind(new Skeleton([scene as Object3D as Bone], [new Matrix4()]), object.bindMatrix);
+    }
+    this.apply();
+  }
+}
+
+function write(attribute: BufferAttribute, numbers: Float32Array): void {
+  attribute.array.set(numbers);
+  attribute.needsUpdate = true;
+}

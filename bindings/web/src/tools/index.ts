@@ -1,0 +1,210 @@
+/**
+ * The tools of the program `bendy`: convert, validate, inspect, edit, export and compare files, with the same bytes as the program.
+ * They run in a WebAssembly module of their own, which the first call loads. A call computes without pause: for large files, call
+ * from a worker.
+ *
+ * Every function returns a promise, which is rejected with a {@link BendyError}.
+ *
+ * @packageDocumentation
+ */
+import { asBytes } from '../bytes.js';
+import { type Inputs, runTool } from './module.js';
+import type {
+  Chunk,
+  Conversion,
+  ConvertOptions,
+  CharacterDifferences,
+  DiffOptions,
+  DumpOptions,
+  Edited,
+  Exported,
+  ExportFormat,
+  ExportOptions,
+  Faults,
+  FileBytes,
+  FileDifferences,
+  NamedKind,
+  Source,
+  Summary,
+  Warning,
+} from './types.js';
+
+export { BendyError, type ErrorKind } from '../errors.js';
+export type * from './types.js';
+
+/** Whether it is one file; otherwise it is files by name. */
+function isOneFile(source: Source): source is FileBytes {
+  return Object.prototype.toString.call(source) !== '[object Object]';
+}
+
+/** The only file that a tool made. */
+async function made(request: object, inputs: Inputs): Promise<Uint8Array<ArrayBuffer>> {
+  return (await runTool(request, inputs)).made[0]!.bytes;
+}
+
+/** Runs a tool on the file "a.bendy". */
+async function answered<T>(request: object, bytes: FileBytes): Promise<T> {
+  return (await runTool<T>({ ...request, file: 'a.bendy' }, { 'a.bendy': asBytes(bytes) })).answer;
+}
+
+async function edited(request: object, inputs: Inputs): Promise<Edited> {
+  const { answer, made } = await runTool<{ done: string[]; warnings: string[] }>({ ...request, file: 'a.bendy' }, inputs);
+  return { bytes: made[0]!.bytes, done: answer.done, warnings: answer.warnings };
+}
+
+/**
+ * Converts glTF, X-files, Quake II models and bendy files to a bendy file, exactly unless `compact`.
+ *
+ * A source of several files is a map from names to bytes, `{ 'a.gltf': ..., 'a.bin': ... }`; the names are the paths that the main
+ * file uses. Rejects with `conversion` for what cannot be converted; its `path` is the place in the source.
+ */
+export async function convert(source: Source, options: ConvertOptions = {}): Promise<Conversion> {
+  const { main, rig, compact, progress, scene, ...others } = options;
+  const inputs: Inputs = {};
+  let file = main ?? 'source';
+  if (isOneFile(source)) {
+    inputs[file] = asBytes(source);
+  } else {
+    for (const [name, bytes] of Object.entries(source)) inputs[name] = asBytes(bytes);
+    file = main ?? Object.keys(source)[0] ?? '';
+  }
+  const request: Record<string, unknown> = { do: 'convert', file, ...others };
+  if (scene !== undefined) request['scene'] = typeof scene === 'number' ? `#${scene}` : scene;
+  if (compact === true) request['compact'] = true;
+  if (typeof compact === 'string') request['maxError'] = compact;
+  if (rig !== undefined) {
+    let name = 'rig.json';
+    while (name in inputs) name = `_${name}`;
+    inputs[name] = typeof rig === 'string' ? rig : rig instanceof Uint8Array ? rig : JSON.stringify(rig);
+    request['rig'] = name;
+  }
+  const { answer, made } = await runTool<{ report: Conversion['report'] & { warnings: Warning[] }; sources: string[] }>(
+    request,
+    inputs,
+    progress,
+  );
+  return { bytes: made[0]!.bytes, report: answer.report, warnings: answer.report.warnings, sources: answer.sources };
+}
+
+/** Returns every fault of a bendy file; none if it is valid. Rejects with `malformed` for a file of another kind. */
+export async function validate(bytes: FileBytes): Promise<Faults> {
+  const { faults, leftOut } = await answered<Faults>({ do: 'validate' }, bytes);
+  return { faults, leftOut };
+}
+
+/** Returns the chunks of a bendy file as a tree, whatever they hold. Rejects with `malformed` if the grammar is broken. */
+export async function inspect(bytes: FileBytes): Promise<Chunk> {
+  interface Entry extends Omit<Chunk, 'children' | 'path' | 'fields'> {
+    parent: number | null;
+    fields?: Chunk['fields'];
+  }
+  const { chunks } = await answered<{ chunks: Entry[] }>({ do: 'inspect' }, bytes);
+  const tree: Chunk[] = [];
+  const counts: Record<string, number>[] = []; // of each chunk's children, by id
+  for (const { parent, ...entry } of chunks) {
+    const chunk: Chunk = { ...entry, fields: entry.fields ?? {}, path: entry.id, children: [] };
+    if (parent !== null) {
+      const index = counts[parent]![chunk.id] ?? 0;
+      counts[parent]![chunk.id] = index + 1;
+      chunk.path = `${tree[parent]!.path}/${chunk.id}${index === 0 ? '' : `[${index}]`}`;
+      tree[parent]!.children.push(chunk);
+    }
+    tree.push(chunk);
+    counts.push({});
+  }
+  return tree[0]!;
+}
+
+/** A summary of a character: the object "summary" of `bendy inspect --json`, see docs/inspect.md. Rejects for a faulty file. */
+export async function summary(bytes: FileBytes): Promise<Summary> {
+  return (await answered<{ summary: Summary }>({ do: 'summary' }, bytes)).summary;
+}
+
+/**
+ * The page of `bendy inspect --html`, as HTML text: facts, faults, chunks, skeleton, clips, textures and materials, without
+ * pictures. It loads nothing. Faulty files have one too.
+ *
+ * @param name - of the file, for the page's title
+ */
+export async function inspectPage(bytes: FileBytes, name: string): Promise<string> {
+  return new TextDecoder().decode(await made({ do: 'page', file: 'a.bendy', name }, { 'a.bendy': asBytes(bytes) }));
+}
+
+/** The text form of a file (spec/text.md): JSON that `assemble` turns back into the same bytes. */
+export async function dump(bytes: FileBytes, options: DumpOptions = {}): Promise<string> {
+  return new TextDecoder().decode(await made({ do: 'dump', file: 'a.bendy', ...options }, { 'a.bendy': asBytes(bytes) }));
+}
+
+/**
+ * The file that a text form describes. Rejects with `malformed` for a fault in the text, whose `path` is its line and column, and
+ * for an invalid file unless `allowInvalid`.
+ */
+export function assemble(text: string, options: { allowInvalid?: boolean } = {}): Promise<Uint8Array<ArrayBuffer>> {
+  return made({ do: 'assemble', file: 'a.json', ...options }, { 'a.json': text });
+}
+
+/**
+ * Removes a part of a file: "textures", "clips", "clip:Run", "mesh:Hat*", "lod", "extras", ... What the change does not concern
+ * keeps its bytes.
+ */
+export function strip(bytes: FileBytes, part: string): Promise<Edited> {
+  return edited({ do: 'strip', part }, { 'a.bendy': asBytes(bytes) });
+}
+
+/**
+ * Renames things of one kind: `{ 'mixamorig:*': '*' }`. All pairs are matched against the names in the file.
+ *
+ * @param options - allMustMatch: false: a pair without a match is a warning
+ */
+export function rename(
+  bytes: FileBytes,
+  kind: NamedKind,
+  names: Readonly<Record<string, string>>,
+  options: { allMustMatch?: boolean } = {},
+): Promise<Edited> {
+  return edited({ do: 'rename', kind, names: Object.entries(names), ...options }, { 'a.bendy': asBytes(bytes) });
+}
+
+/**
+ * Appends the clips of another bendy file, by the names of the joints.
+ *
+ * @param options - sameName: what to do if a clip of that name exists; "error" by default
+ */
+export function mergeClips(
+  bytes: FileBytes,
+  other: FileBytes,
+  options: { sameName?: 'error' | 'replace' | 'number' } = {},
+): Promise<Edited> {
+  const request = { do: 'mergeClips', other: 'b.bendy', sameName: options.sameName ?? 'error' };
+  return edited(request, { 'a.bendy': asBytes(bytes), 'b.bendy': asBytes(other) });
+}
+
+/** Keeps the joint with this name and its descendants, with everything that belongs to them. */
+export function extract(bytes: FileBytes, joint: string): Promise<Edited> {
+  return edited({ do: 'extract', joint }, { 'a.bendy': asBytes(bytes) });
+}
+
+/**
+ * Writes a bendy file as glTF ("glb"; "gltf" with a .bin beside it) or as an X-file ("x", with images beside it). The files' names
+ * start with `options.name`.
+ */
+export async function exportModel(bytes: FileBytes, format: ExportFormat, options: ExportOptions = {}): Promise<Exported> {
+  const request = { do: 'export', file: 'a.bendy', format, name: options.name ?? 'model', lod: options.lod ?? 1 };
+  const { answer, made } = await runTool<{ warnings: Warning[] }>(request, { 'a.bendy': asBytes(bytes) });
+  const files = Object.fromEntries(made.map((file) => [file.name, file.bytes]));
+  return { main: made[0]!.name, files, warnings: answer.warnings };
+}
+
+/**
+ * Everything in which two bendy files differ, chunk by chunk; with `tolerance`, in which the characters in them differ. Rejects
+ * for a faulty file.
+ */
+export async function diff(a: FileBytes, b: FileBytes, options: DiffOptions & { tolerance: string }): Promise<CharacterDifferences>;
+export async function diff(a: FileBytes, b: FileBytes, options?: { tolerance?: undefined }): Promise<FileDifferences>;
+export async function diff(a: FileBytes, b: FileBytes, options: DiffOptions = {}): Promise<FileDifferences | CharacterDifferences> {
+  const request = { do: 'diff', file: 'a.bendy', other: 'b.bendy', tolerance: options.tolerance ?? '' };
+  const inputs = { 'a.bendy': asBytes(a), 'b.bendy': asBytes(b) };
+  const { answer } = await runTool<(FileDifferences | CharacterDifferences) & { made?: unknown }>(request, inputs);
+  delete answer.made;
+  return answer;
+}

@@ -1,0 +1,178 @@
+/** A file's content. */
+export type FileBytes = Uint8Array | ArrayBuffer;
+
+/** The input of `convert`: a file, or several by name, the main one and those that it refers to. */
+export type Source = FileBytes | Readonly<Record<string, FileBytes>>;
+
+/** The options of `bendy convert`, see docs/convert.md. */
+export interface ConvertOptions {
+  /** The file to convert, if there are several; the first if not given. The name of a single file, for messages. */
+  main?: string;
+  /** Encode for size: true, or the largest error, "0.1mm" or "0.005%". */
+  compact?: boolean | string;
+  /** Compute levels of detail. */
+  lod?: boolean;
+  /** Propose IK chains and constraints from names and shape. */
+  autoRig?: boolean;
+  /** Bind meshes without a skin to the nearest bones. */
+  autoSkin?: boolean;
+  /** For `autoSkin`, which it implies: only this joint and its descendants are bones. */
+  skeleton?: string;
+  /** A rig file (spec/rig.md): its text, its bytes, or the object. */
+  rig?: string | Uint8Array | object;
+  /** Put vertices that follow the same bones beside one another. */
+  sortVertices?: boolean;
+  /** "embed": copy images into the file; "link": keep them as URIs. "embed" if not given. */
+  images?: 'embed' | 'link';
+  /** The name or number of a glTF file's scene. */
+  scene?: string | number;
+  /** Make a joint and a mesh of every instance of EXT_mesh_gpu_instancing. */
+  instances?: boolean;
+  /** Make one clip of clips that move different joints. */
+  mergeClips?: boolean;
+  /** The skin image of a Quake II model: the name of one of the files. */
+  texture?: string;
+  /** Key time units per second, for an X-file that states none or a wrong number. */
+  ticksPerSecond?: number;
+  /** Called from time to time with the fraction done, 0 to 1. An exception from it rejects the promise at the end. */
+  progress?: (share: number) => void;
+}
+
+/** Something that the result lacks, or represents differently. */
+export interface Warning {
+  message: string;
+  /** The place where it occurred first. */
+  place: string;
+  /** How many times it occurred. */
+  count: number;
+}
+
+/** The result of `convert`. */
+export interface Conversion {
+  /** The bendy file. */
+  bytes: Uint8Array<ArrayBuffer>;
+  /** The object of `bendy convert --json`: counts, clips, sizes, proposals, suggestions. */
+  report: Record<string, unknown> & { proposals: string[]; suggestions: string[] };
+  warnings: Warning[];
+  /** The names of the files that were read. */
+  sources: string[];
+}
+
+/** One fault of a file. */
+export interface Fault {
+  /** A word that never changes: "CHUNK_TOO_LONG". */
+  code: string;
+  kind: 'malformed' | 'invalid' | 'unsupported';
+  /** A sentence. */
+  message: string;
+  /** The chunk's path, "HEAD/OBJE/SKIN[1]". */
+  path: string;
+  /** Bytes from the start of the file. */
+  offset: number;
+}
+
+/** The faults of a file. */
+export interface Faults {
+  /** The first thousand. */
+  faults: Fault[];
+  /** How many more there are. */
+  leftOut: number;
+}
+
+/** A chunk of a file. */
+export interface Chunk {
+  /** Four letters. */
+  id: string;
+  /** The meaning of the id. */
+  meaning: string;
+  /** Its index in file order. */
+  number: number;
+  /** Its path from the root, "HEAD/OBJE/SKIN[1]". */
+  path: string;
+  /** Bytes from the start of the file. */
+  offset: number;
+  /** Bytes of the payload as stored. */
+  size: number;
+  /** The stored CRC-32C, as hexadecimal digits. */
+  sum: string;
+  container: boolean;
+  /** How the payload is encoded, if it is. */
+  codec?: number;
+  /** Its record by name, as in `bendy inspect --json`. */
+  fields: Record<string, unknown>;
+  children: Chunk[];
+}
+
+/** The object "summary" of `bendy inspect --json`, see docs/inspect.md. */
+export type Summary = Record<string, unknown>;
+
+/** Options of `dump`. */
+export interface DumpOptions {
+  /** Write encoded chunks decoded. */
+  decode?: boolean;
+  /** Accept a file with wrong sums. */
+  ignoreSums?: boolean;
+}
+
+/** A changed file. */
+export interface Edited {
+  bytes: Uint8Array<ArrayBuffer>;
+  /** Lines about what was done. */
+  done: string[];
+  /** Lines about what to check. */
+  warnings: string[];
+}
+
+/** The kinds of things that can be renamed. */
+export type NamedKind = 'joint' | 'clip' | 'chain' | 'mesh' | 'target' | 'material' | 'texture' | 'object';
+
+export type ExportFormat = 'glb' | 'gltf' | 'x';
+
+/** Options of `exportModel`. */
+export interface ExportOptions {
+  /** The fraction of the triangles, 0 to 1, for a file with levels of detail. */
+  lod?: number;
+  /** The name of the files without a suffix: "model" if not given. */
+  name?: string;
+}
+
+/** The result of `exportModel`. */
+export interface Exported {
+  /** The main file's name. */
+  main: string;
+  files: Record<string, Uint8Array<ArrayBuffer>>;
+  warnings: Warning[];
+}
+
+/** Options of `diff`. */
+export interface DiffOptions {
+  /** Compares the characters: how far a point of the skin may deviate, "0.1mm" or "0.005%". */
+  tolerance?: string | undefined;
+}
+
+/** One difference, as in `bendy diff --json`. */
+export interface Difference {
+  kind: string;
+  [field: string]: unknown;
+}
+
+/** The chunks in which two files differ. */
+export interface FileDifferences {
+  same: boolean;
+  differences: Difference[];
+  differencesLeftOut: number;
+}
+
+/** The ways in which two characters differ by more than the tolerance. */
+export interface CharacterDifferences extends FileDifferences {
+  /** Metres. */
+  tolerance: number;
+  unit: 'metres';
+  /** The largest measured distance, and where; null if none was measured, because the skeletons differ. */
+  worst: number | null;
+  worstPlace: string;
+  /** The differences between normals, texture coordinates and colours. */
+  looks: { place: string; apart: number; allowed: number; unit: string }[];
+  /** The contents of the files that were not compared. */
+  notCompared: Warning[];
+}

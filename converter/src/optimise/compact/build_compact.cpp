@@ -1,0 +1,169 @@
+#include "optimise/compact/build_compact.h"
+
+#include "optimise/compact/compact_geometry.h"
+#include "optimise/compact/pack_clips.h"
+#include "optimise/compact/pack_curve.h"
+#include "optimise/measure_error.h"
+#include "optimise/sample_limits.h"
+#include "scene/evaluate.h"
+#include "scene/frame_shapes.h"
+#include "scene/progress.h"
+
+#include <bendy/converter/build_chunks.h>
+#include <bendy/converter/import.h>
+#include <bendy/format/chunk_reader.h>
+#include <bendy/format/chunk_writer.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace bendy::converter {
+namespace {
+
+// Shares of the bound for positions, weights and targets, and for clips. The two errors seldom occur at one point at
+// the same time, so the sum may exceed 1: the measurement decides.
+constexpr double kGeometryShare = 0.35;
+constexpr double kClipShare = 0.9;
+
+/// Measures the clips with measure_clips on the file's bytes; infinite if they cannot be read.
+std::vector<MeasuredError> measure(const Scene& exact, const CompactGeometry& geometry, Bytes bytes,
+                                   std::span<const std::uint32_t> clips, MeasureOptions options) {
+    Report unheard;
+    const auto decoded = import_bendy(bytes, unheard);
+    if (!decoded) {
+        std::vector<MeasuredError> unknown(clips.size() + 1);
+        for (MeasuredError& error : unknown) error.metres = std::numeric_limits<double>::infinity();
+        return unknown;
+    }
+    std::vector<std::vector<std::uint32_t>> maps;
+    maps.reserve(geometry.meshes.size());
+    for (const CompactMesh& mesh : geometry.meshes) maps.push_back(mesh.vertex_of);
+    options.vertex_maps = maps;
+    return measure_clips(exact, *decoded, clips, options);
+}
+
+/// The file with BNDS after VERS, where build_chunks puts it: its contents are known only after the file is measured.
+std::vector<std::byte> with_bound(Bytes file, const BoundRecord& bound) {
+    const Result<ChunkTree> tree = read_chunk_tree(file);
+    assert(tree);
+    ChunkWriter out;
+    out.reserve(file.size() + kChunkHeaderSize + padded(sizeof bound));
+    out.begin(FourCC("HEAD"));
+    for (const std::uint32_t number : tree->children(0)) {
+        const Chunk& chunk = (*tree)[number];
+        out.copy(file.subspan(chunk.offset, kChunkHeaderSize + padded(chunk.size)));
+        if (chunk.id == FourCC("VERS")) out.leaf(FourCC("BNDS"), bytes_of(bound));
+    }
+    out.end();
+    return std::move(out).finish();
+}
+
+/// Counts the curves and the packed ones as put_curves writes them, and finds their largest error.
+void count_curves(const Scene& scene, CompactReport& report) {
+    for (const Clip& clip : scene.clips) {
+        report.curves += clip.curves.size();
+        for (const Curve& curve : clip.curves) {
+            const std::optional<PackedCurve> packed = pack_curve(curve);
+            if (!packed) continue;
+            ++report.packed_curves;
+            report.curve_error = std::max(report.curve_error, packed->share);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& options, std::string_view generator,
+                                     Report& report) {
+    const auto& [bound, progress, threads] = options;
+    constexpr int kAttempts = 6;            // the last one leaves the clips unchanged
+    constexpr double kPackingShare = 0.6;   // of an attempt
+    constexpr double kAttemptShare = 0.75;  // of the remaining work
+    constexpr double kOvershoot = 1.1;      // factor on the reduction of a clip's share when its error is too large
+    constexpr double kLeast = 0.2;          // smallest factor on a clip's share from one attempt to the next
+    constexpr double kStep = 0.02;  // minimum reduction, doubled at each attempt: small changes may have no effect
+
+    CompactReport result;
+    result.height = height_at_rest(exact);
+    result.max_error = bound.is_share ? bound.value * result.height : bound.value;
+    std::vector<std::byte> plain = build_chunks(exact, generator, report);
+    result.exact = count_bytes(plain);
+    if (!find_limits(exact).can_be_measured) {
+        report.warn("poses too much for its size to be measured: written exactly");
+        return plain;
+    }
+
+    Report unheard;  // discarded: the compact file gives the same warnings
+    Scene geometry_scene = exact;
+    const double geometry_share = exact.clips.empty() ? 1.0 : kGeometryShare;
+    // Rough estimate: the geometry takes as long as five seconds of clips.
+    constexpr double kGeometryWork = 5.0;
+    double seconds = 0.0;
+    for (const Clip& clip : exact.clips) seconds += span_of(clip).at(1.0) - span_of(clip).at(0.0);
+    const double geometry_done = std::min(0.8, kGeometryWork / (kGeometryWork + seconds));
+    const CompactGeometry geometry =
+        compact_geometry(geometry_scene, result.max_error * geometry_share, part_of(progress, 0.0, geometry_done));
+
+    const std::size_t clips = exact.clips.size();
+    Scene scene = geometry_scene;
+    std::vector<double> shares(clips, kClipShare);  // of the bound, for each clip
+    std::vector<MeasuredError> errors(clips + 1);   // of each clip, and at rest
+    std::vector<std::uint32_t> to_pack(clips);      // numbers of clips that are not yet within the bound
+    std::iota(to_pack.begin(), to_pack.end(), 0u);
+    std::vector<std::byte> bytes;
+    double done = geometry_done;
+    for (int number = 0; number < kAttempts; ++number) {
+        // The first attempt usually is the last: progress never decreases, and keeps some room for more.
+        const double attempt_done = done + kAttemptShare * (1.0 - done);
+        const double packing_done = done + kPackingShare * (attempt_done - done);
+        std::vector<double> bounds(clips, 0.0);
+        for (const std::uint32_t clip : to_pack) {
+            scene.clips[clip] = geometry_scene.clips[clip];
+            if (number + 1 < kAttempts) bounds[clip] = result.max_error * shares[clip];
+        }
+        pack_clips(scene, bounds, {.progress = part_of(progress, done, packing_done), .threads = threads});
+        BuildOptions how;
+        how.compact = true;
+        how.geometry = &geometry;
+        bytes = build_chunks(scene, generator, unheard, how);
+        const std::vector<MeasuredError> found =
+            measure(exact, geometry, bytes, to_pack,
+                    {.progress = part_of(progress, packing_done, attempt_done), .threads = threads});
+        done = attempt_done;
+        for (std::size_t k = 0; k < to_pack.size(); ++k) errors[to_pack[k]] = found[k];
+        errors.back() = found.back();
+        std::erase_if(to_pack, [&](std::uint32_t clip) { return errors[clip].metres <= result.max_error; });
+        if (to_pack.empty() || !(errors.back().metres <= result.max_error)) break;
+        for (const std::uint32_t clip : to_pack) {
+            const double excess = errors[clip].metres / result.max_error - 1.0;
+            const double less = std::max(kOvershoot * excess, kStep * (1 << number));
+            shares[clip] = std::max(shares[clip] - less, kLeast * shares[clip]);
+        }
+    }
+    MeasuredError worst = errors.back();
+    for (const MeasuredError& error : errors) {
+        if (error.metres > worst.metres) worst = error;
+    }
+    if (!(worst.metres <= result.max_error)) {
+        report.warn("cannot be kept inside the error that was asked for: written exactly");
+        return plain;
+    }
+    bytes = with_bound(bytes, {static_cast<float>(result.max_error), static_cast<float>(worst.metres),
+                               static_cast<float>(result.height)});
+    result.measured_error = worst.metres;
+    result.place = place_of(exact, worst);
+    result.compact = count_bytes(bytes);
+    count_curves(exact, result);
+    report.compact = std::move(result);
+    return bytes;
+}
+
+}  // namespace bendy::converter

@@ -1,0 +1,225 @@
+#include "optimise/compact/grid.h"
+
+#include "scene/evaluate.h"
+#include "scene/frame_shapes.h"
+#include "scene/space.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace bendy::converter {
+namespace {
+
+constexpr std::uint32_t kDenser = 4;  // grids up to this many times denser than the densest track are tried
+
+bool is_packable(const Track& track) {
+    return track.path != TrackPath::weights && track.interpolation == Interpolation::linear;
+}
+
+bool is_constant(const Track& track) {
+    const std::size_t n = track.components;
+    for (std::size_t at = n; at < track.values.size(); ++at) {
+        if (track.values[at] != track.values[at - n]) return false;
+    }
+    return true;
+}
+
+bool is_on_grid(const Track& track, double start, double rate) {
+    return std::all_of(track.times.begin(), track.times.end(), [&](float time) {
+        const double frame = (double{time} - start) * rate;
+        return frame > -kGridTolerance && std::abs(frame - std::nearbyint(frame)) <= kGridTolerance;
+    });
+}
+
+/// Frames per second of a track's keys, if evenly spaced on a grid up to `denser` times finer.
+std::optional<double> rate_of(const Track& track, double most_frames) {
+    const std::size_t last = track.times.size() - 1;
+    double shortest = double{track.times[last]} - track.times[0];
+    for (std::size_t k = 1; k <= last; ++k) shortest = std::min(shortest, double{track.times[k]} - track.times[k - 1]);
+    if (!(shortest > 0.0)) return std::nullopt;
+    // The shortest step is imprecise, the total length is not: count the frames in it.
+    const double length = double{track.times[last]} - track.times[0];
+    double rate = 1.0 / shortest;
+    double frames = 0.0;
+    for (std::size_t k = 1; k <= last; ++k) {
+        frames += std::nearbyint((double{track.times[k]} - track.times[k - 1]) * rate);
+        // At powers of two, re-estimate the rate from the frames counted so far, which is more precise than one step.
+        if ((k & (k - 1)) == 0) rate = frames / (double{track.times[k]} - track.times[0]);
+    }
+    rate = frames / length;
+    if (!(rate > 0.0) || !(frames < most_frames)) return std::nullopt;
+    return rate;
+}
+
+/// The tracks of a clip, sorted for finding a grid.
+struct Tracks {
+    std::vector<std::uint32_t> still;   // numbers of tracks that never change
+    std::vector<std::uint32_t> moving;  // numbers of tracks that change and can be packed
+    const Track* densest = nullptr;     // among the moving ones
+    ClipSpan span;
+};
+
+Tracks sort_tracks(const Clip& clip) {
+    Tracks tracks;
+    tracks.span = span_of(clip);
+    for (std::uint32_t number = 0; number < clip.tracks.size(); ++number) {
+        const Track& track = clip.tracks[number];
+        if (!is_packable(track)) continue;
+        if (is_constant(track)) {
+            tracks.still.push_back(number);
+            continue;
+        }
+        tracks.moving.push_back(number);
+        if (tracks.densest == nullptr || track.times.size() > tracks.densest->times.size()) tracks.densest = &track;
+    }
+    return tracks;
+}
+
+/// One frame, or two that span the clip: for constant tracks.
+Grid still_grid(const Tracks& tracks) {
+    const auto [start, end] = tracks.span;
+    const bool lasts = end > start;
+    return {start, lasts ? static_cast<float>(1.0 / (double{end} - start)) : 1.0f, lasts ? 2u : 1u};
+}
+
+/// The even grid that holds most of the moving tracks, and those tracks.
+GridTracks even_grid(const Clip& clip, const Tracks& tracks, double most_frames) {
+    GridTracks found;
+    const std::optional<double> base = rate_of(*tracks.densest, most_frames);
+    if (!base) return found;
+    for (std::uint32_t denser = 1; denser <= kDenser; ++denser) {
+        const double rate = *base * denser;
+        const double first = tracks.densest->times.front();
+        const double origin = first - std::nearbyint((first - tracks.span.start) * rate) / rate;
+        std::vector<std::uint32_t> held;
+        double last = origin;
+        for (const std::uint32_t number : tracks.moving) {
+            const Track& track = clip.tracks[number];
+            if (!is_on_grid(track, origin, rate)) continue;
+            held.push_back(number);
+            last = std::max(last, double{track.times.back()});
+        }
+        const double frames = std::nearbyint((last - origin) * rate);
+        if (held.size() <= found.tracks.size() || !(frames < most_frames)) continue;
+        found.grid = {static_cast<float>(origin), static_cast<float>(rate), static_cast<std::uint32_t>(frames) + 1};
+        found.tracks = std::move(held);
+    }
+    return found;
+}
+
+/// All key times of the moving tracks; no frames if there are many more than any single track has.
+Grid uneven_grid(const Clip& clip, const Tracks& tracks, std::size_t most_frames) {
+    constexpr std::size_t kMore = 2;
+    Grid grid{0.0f, 0.0f, 0, {}};
+    const std::vector<float>* before = nullptr;
+    for (const std::uint32_t number : tracks.moving) {
+        const std::vector<float>& times = clip.tracks[number].times;
+        if (before != nullptr && *before == times) continue;
+        before = &times;
+        grid.times.insert(grid.times.end(), times.begin(), times.end());
+    }
+    std::sort(grid.times.begin(), grid.times.end());
+    grid.times.erase(std::unique(grid.times.begin(), grid.times.end()), grid.times.end());
+    if (grid.times.size() > std::min(kMore * tracks.densest->times.size(), most_frames)) return {0.0f, 0.0f, 0, {}};
+    grid.start = grid.times.front();
+    grid.frames = static_cast<std::uint32_t>(grid.times.size());
+    return grid;
+}
+
+}  // namespace
+
+double snapped(const Track& track, double seconds, double snap) {
+    const auto after = std::upper_bound(track.times.begin(), track.times.end(), seconds + snap);
+    if (after == track.times.begin()) return seconds;
+    const double key = *(after - 1);
+    return seconds - key <= snap ? key : seconds;
+}
+
+double Grid::snap() const {
+    return rate != 0.0f ? kGridTolerance / rate : 0.0;
+}
+
+std::optional<GridTracks> find_grid(const Clip& clip, std::size_t most_frames) {
+    const Tracks tracks = sort_tracks(clip);
+    GridTracks found;
+    if (!tracks.moving.empty()) {
+        found = even_grid(clip, tracks, static_cast<double>(most_frames));
+        if (found.tracks.size() < tracks.moving.size()) {
+            Grid uneven = uneven_grid(clip, tracks, most_frames);
+            if (uneven.frames > 1) found = {std::move(uneven), tracks.moving};
+        }
+    }
+    if (found.tracks.empty()) found.grid = still_grid(tracks);
+    found.tracks.insert(found.tracks.end(), tracks.still.begin(), tracks.still.end());
+    std::sort(found.tracks.begin(), found.tracks.end());
+    return found.tracks.empty() ? std::nullopt : std::optional(std::move(found));
+}
+
+namespace {
+
+constexpr std::uint32_t kFewest = 12;  // minimum number of frames left
+
+/// Distance in metres, in the parent's space, between two values of a joint, at its probes.
+double difference(const Local& a, const Local& b, TrackPath path, double reach) {
+    if (path == TrackPath::translation) return glm::length(a.translation - b.translation);
+    if (path == TrackPath::scale) return glm::length(a.scale - b.scale) * reach;
+    const double sign = glm::dot(a.rotation, b.rotation) < 0.0 ? -1.0 : 1.0;
+    const glm::dquat off = a.rotation - b.rotation * sign;
+    return 2.0 * std::sqrt(glm::dot(off, off)) * reach;
+}
+
+/// Interpolates between two values; the chord is near enough to the arc for this purpose.
+Local between(const Local& a, const Local& b, double u) {
+    Local found = a;
+    found.translation = a.translation * (1.0 - u) + b.translation * u;
+    found.scale = a.scale * (1.0 - u) + b.scale * u;
+    const double sign = glm::dot(a.rotation, b.rotation) < 0.0 ? -1.0 : 1.0;
+    found.rotation = glm::normalize(a.rotation * (1.0 - u) + b.rotation * (sign * u));
+    return found;
+}
+
+double error_of(const Track& track, const Local& rest, const Grid& from, const Grid& to, double reach, double most) {
+    std::vector<Local> kept(to.frames, rest);
+    std::vector<double> value;
+    for (std::uint32_t f = 0; f < to.frames; ++f) {
+        evaluate_track(track, to.time_of(f), value);
+        set_property(track.path, value, kept[f]);
+    }
+    double worst = 0.0;
+    for (std::uint32_t f = 0; f < from.frames && worst <= most; ++f) {
+        Local exact = rest;
+        evaluate_track(track, snapped(track, from.time_of(f), from.snap()), value);
+        set_property(track.path, value, exact);
+        const double at = std::max(0.0, (from.time_of(f) - to.start) * to.rate);
+        const auto left = std::min(static_cast<std::uint32_t>(at), to.frames - 2);
+        const Local found = between(kept[left], kept[left + 1], std::min(at - left, 1.0));
+        worst = std::max(worst, difference(exact, found, track.path, reach));
+    }
+    return worst;
+}
+
+}  // namespace
+
+std::optional<ThinGrid> thin_grid(const Scene& scene, const Clip& clip, const GridTracks& tracks, std::uint32_t fewer,
+                                  const std::vector<std::vector<glm::dvec3>>& probes, double most) {
+    const Grid& old = tracks.grid;
+    const std::uint32_t frames = (old.frames - 1 + fewer / 2) / fewer + 1;
+    if (old.rate == 0.0f || frames < kFewest) return std::nullopt;
+    ThinGrid thin{old, 0.0};
+    thin.grid.frames = frames;
+    thin.grid.rate = static_cast<float>(double{old.rate} * (frames - 1) / (old.frames - 1));
+    for (const std::uint32_t number : tracks.tracks) {
+        const Track& track = clip.tracks[number];
+        double reach = 0.0;
+        for (const glm::dvec3& probe : probes[track.target]) reach = std::max(reach, glm::length(probe));
+        const Local rest = local_of(scene.joints[track.target].rest);
+        thin.error = std::max(thin.error, error_of(track, rest, old, thin.grid, reach, most));
+        if (thin.error > most) return std::nullopt;
+    }
+    return thin;
+}
+
+}  // namespace bendy::converter

@@ -1,0 +1,518 @@
+#include "optimise/measure_error.h"
+
+#include "optimise/posable_mesh.h"
+#include "optimise/sample_limits.h"
+#include "scene/evaluate.h"
+#include "scene/frame_shapes.h"
+#include "scene/in_parallel.h"
+#include "scene/space.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace bendy::converter {
+namespace {
+
+constexpr double kMostSamples = 100'800.0;  // of one clip: 7 minutes
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// NaN counts as infinite.
+double or_infinite(double value) {
+    if (std::isnan(value)) return kInfinity;
+    return value;
+}
+
+/// Raises `most` to the value if that is larger.
+void raise(double& most, double value) {
+    if (!(value <= most)) most = or_infinite(value);
+}
+
+/// An upper bound on the factor by which the matrix stretches a vector.
+double stretch_of(const glm::dmat3& m) {
+    double largest = 0.0;  // of the row sums of m^T m, whose eigenvalues are squared stretches
+    for (int row = 0; row < 3; ++row) {
+        double sum = 0.0;
+        for (int column = 0; column < 3; ++column) sum += std::abs(glm::dot(m[row], m[column]));
+        raise(largest, sum);
+    }
+    return std::sqrt(largest);
+}
+
+/// The Frobenius norm: also an upper bound.
+double length_of_all(const glm::dmat3& m) {
+    return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+}
+
+/// A mesh in both scenes. With bone matrices P and Q, positions p and p', weights w and w' of the exact and the decoded
+/// mesh, the error of a vertex is
+///     sum w P p - sum w' Q p' = sum w (P - Q) p + sum (w - w') (Q p - c) + sum (w - w') c + sum w' Q (p - p')
+/// for any c; each of the four terms is bounded by constants of the vertex and, once per pose, of the bones.
+class MeshPair {
+public:
+    MeshPair(const Mesh& exact, const Mesh& decoded, const std::vector<std::uint32_t>* map)
+        : exact_(exact, used_entries(exact, decoded)), decoded_(decoded, used_entries(decoded, exact)), map_(map) {
+        touched_.resize(exact_.size());
+        std::vector<bool> touched_there(decoded_.size());
+        exact_.mark_touched(touched_);
+        decoded_.mark_touched(touched_there);
+        for (std::size_t vertex = 0; vertex < exact_.size(); ++vertex) {
+            const std::uint32_t there = place_in_decoded(vertex);
+            if (there != kNone && touched_there[there]) touched_[vertex] = true;
+        }
+        find_groups();
+        has_bounds_ = exact_.joints() == decoded_.joints();
+        if (has_bounds_) prepare_bounds();
+    }
+
+    /// Updates `worst` if a vertex of this pose is worse; returns whether it did.
+    bool measure(const EvaluatedPose& exact_pose, const EvaluatedPose& decoded_pose, std::uint32_t mesh,
+                 MeasuredError& worst) {
+        const bool moved_here = exact_.set_pose(exact_pose.joints, exact_pose.morph_weights[mesh]);
+        const bool moved_there = decoded_.set_pose(decoded_pose.joints, decoded_pose.morph_weights[mesh]);
+        if (!moved_here && !moved_there && is_measured_) return false;
+        is_measured_ = true;
+        const bool is_displaced = exact_.is_displaced() || decoded_.is_displaced();
+        if (has_bounds_) {
+            bound_bones();
+            if (!is_displaced && bound(worst_case_, largest_difference_) <= worst.metres) return false;
+        }
+        bool has_risen = false;
+        const auto look_at = [&](std::uint32_t vertex) {
+            const double error = glm::distance(exact_.place(vertex), decoded_.place(place_in_decoded(vertex)));
+            if (error <= worst.metres) return;
+            worst.metres = or_infinite(error);
+            worst.mesh = mesh;
+            worst.vertex = vertex;
+            has_risen = true;
+        };
+        for (const Group& group : groups_) {
+            const bool has_bounds = has_bounds_ && !(is_displaced && group.is_touched);
+            double bone_difference = 0.0;
+            if (has_bounds) {
+                for (const std::uint32_t entry : group.entries) {
+                    const BoneDifference& d = bone_differences_[entry];
+                    raise(bone_difference, glm::length(d.matrix(group.middle)) + d.length * group.radius);
+                }
+                if (bound(group.worst_case, bone_difference) <= worst.metres) continue;
+            }
+            for (const std::uint32_t vertex : group.vertices) {
+                if (!has_bounds || !(bound(differences_[vertex], bone_difference) <= worst.metres)) look_at(vertex);
+            }
+        }
+        return has_risen;
+    }
+
+    /// Forces the next pose to be measured, even if it equals the last one.
+    void forget_pose() { is_measured_ = false; }
+
+    [[nodiscard]] bool can_be_compared() const {
+        if (map_ == nullptr) return exact_.size() == decoded_.size();
+        return map_->size() == exact_.size() && std::all_of(map_->begin(), map_->end(), [&](std::uint32_t vertex) {
+                   return vertex == kNone || vertex < decoded_.size();
+               });
+    }
+
+private:
+    /// The palette entries that a mesh uses, or that the other mesh uses if both have the same palette.
+    static std::vector<bool> used_entries(const Mesh& mesh, const Mesh& other) {
+        std::vector<bool> used;
+        mark_used(mesh, used);
+        if (other.palette.joints == mesh.palette.joints) mark_used(other, used);
+        return used;
+    }
+
+    /// How much a vertex's data differ between the two scenes.
+    struct Difference {
+        double place = 0.0;          // metres, in mesh space
+        double weights = 0.0;        // sum of |w - w'|
+        double weight_sum = 0.0;     // |sum of w - w'|
+        double exact_total = 0.0;    // sum of w
+        double decoded_total = 0.0;  // sum of w'
+    };
+
+    static void raise(Difference& most, const Difference& d) {
+        raise(most.place, d.place);
+        raise(most.weights, d.weights);
+        raise(most.weight_sum, d.weight_sum);
+        raise(most.exact_total, d.exact_total);
+        raise(most.decoded_total, d.decoded_total);
+    }
+    static void raise(double& most, double value) { converter::raise(most, value); }
+
+    /// A few nearby vertices that the same bones move in the exact scene.
+    struct Group {
+        std::vector<std::uint32_t> entries;   // palette entries, ascending
+        std::vector<std::uint32_t> vertices;  // those that are compared
+        glm::dvec3 middle{0.0};               // in mesh space
+        double radius = 0.0;
+        Difference worst_case;
+        bool is_touched = false;  // some target displaces them
+    };
+    /// A bone's matrix in this pose: exact minus decoded.
+    struct BoneDifference {
+        Affine matrix;
+        double length = 0.0;  // Frobenius norm of the linear part
+    };
+
+    [[nodiscard]] std::uint32_t place_in_decoded(std::size_t vertex) const {
+        if (map_ != nullptr)
+            return vertex < map_->size() && (*map_)[vertex] < decoded_.size() ? (*map_)[vertex] : kNone;
+        return vertex < decoded_.size() ? static_cast<std::uint32_t>(vertex) : kNone;
+    }
+
+    void find_groups() {
+        std::map<std::pair<bool, std::vector<std::uint32_t>>, std::vector<std::uint32_t>> groups;
+        for (std::uint32_t vertex = 0; vertex < exact_.size(); ++vertex) {
+            if (place_in_decoded(vertex) == kNone) continue;
+            std::vector<std::uint32_t> entries;
+            for (const Influence& influence : exact_.influences(vertex)) entries.push_back(influence.entry);
+            std::sort(entries.begin(), entries.end());
+            groups[{touched_[vertex], std::move(entries)}].push_back(vertex);
+        }
+        for (auto& [key, vertices] : groups) add_groups(key.second, vertices, key.first);
+    }
+
+    /// Splits the vertices across their longest side, until each group is small.
+    void add_groups(const std::vector<std::uint32_t>& entries, std::span<std::uint32_t> all, bool is_touched) {
+        constexpr std::size_t kMost = 16;
+        std::vector<std::span<std::uint32_t>> open{all};
+        while (!open.empty()) {
+            const std::span<std::uint32_t> vertices = open.back();
+            open.pop_back();
+            Box<glm::dvec3> box;
+            for (const std::uint32_t vertex : vertices) box.add(exact_.base(vertex));
+            const glm::dvec3 size = box.high - box.low;
+            const int larger = size.y > size.x ? 1 : 0;
+            const int axis = size.z > size[larger] ? 2 : larger;
+            if (vertices.size() <= kMost || !(size[axis] > 0.0)) {
+                std::sort(vertices.begin(), vertices.end());  // nth_element's order differs between libraries
+                groups_.push_back({entries,
+                                   {vertices.begin(), vertices.end()},
+                                   0.5 * (box.low + box.high),
+                                   0.5 * glm::length(size),
+                                   {},
+                                   is_touched});
+                continue;
+            }
+            const std::size_t half = vertices.size() / 2;
+            std::nth_element(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(half), vertices.end(),
+                             [&](std::uint32_t a, std::uint32_t b) {
+                                 return std::pair(or_infinite(exact_.base(a)[axis]), a) <
+                                        std::pair(or_infinite(exact_.base(b)[axis]), b);
+                             });
+            open.push_back(vertices.subspan(half));
+            open.push_back(vertices.first(half));
+        }
+    }
+
+    void prepare_bounds() {
+        boxes_.resize(exact_.joints().size());
+        differences_.resize(exact_.size());
+        std::vector<double> change(boxes_.size(), 0.0);
+        for (std::size_t vertex = 0; vertex < exact_.size(); ++vertex) {
+            const std::uint32_t there = place_in_decoded(vertex);
+            if (there == kNone) continue;
+            Difference& d = differences_[vertex];
+            d.place = glm::distance(exact_.base(vertex), decoded_.base(there));
+            for (const Influence& influence : exact_.influences(vertex)) {
+                change[influence.entry] += influence.weight;
+                d.exact_total += influence.weight;
+                boxes_[influence.entry].add(exact_.base(vertex));
+            }
+            for (const Influence& influence : decoded_.influences(there)) {
+                change[influence.entry] -= influence.weight;
+                d.decoded_total += influence.weight;
+                boxes_[influence.entry].add(exact_.base(vertex));
+            }
+            for (const auto& list : {exact_.influences(vertex), decoded_.influences(there)}) {
+                for (const Influence& influence : list) {
+                    d.weights += std::abs(change[influence.entry]);
+                    change[influence.entry] = 0.0;
+                }
+            }
+            d.weight_sum = std::abs(d.exact_total - d.decoded_total);
+            raise(worst_case_, d);
+        }
+        for (Group& group : groups_) {
+            for (const std::uint32_t vertex : group.vertices) raise(group.worst_case, differences_[vertex]);
+        }
+        bone_differences_.resize(boxes_.size());
+    }
+
+    /// Computes the bones' part of the bounds for this pose.
+    void bound_bones() {
+        stretch_ = 0.0;
+        largest_difference_ = 0.0;
+        spread_ = 0.0;
+        centre_ = glm::dvec3(0.0);
+        centre_distance_ = 0.0;
+        const auto first =
+            std::find_if(boxes_.begin(), boxes_.end(), [](const Box<glm::dvec3>& box) { return !box.is_empty(); });
+        if (first == boxes_.end()) return;
+        centre_ =
+            decoded_.matrices()[static_cast<std::size_t>(first - boxes_.begin())]((first->low + first->high) * 0.5);
+        centre_distance_ = glm::length(centre_);
+        for (std::size_t bone = 0; bone < boxes_.size(); ++bone) {
+            if (boxes_[bone].is_empty()) continue;
+            const Affine& p = exact_.matrices()[bone];
+            const Affine& q = decoded_.matrices()[bone];
+            const double stretched = stretch_of(q.linear);
+            raise(stretch_, stretched);
+            // The error of a point in a box is at most that of its middle plus the matrix's effect on the way to a
+            // corner.
+            const glm::dvec3 middle = 0.5 * (boxes_[bone].low + boxes_[bone].high);
+            const double radius = 0.5 * glm::distance(boxes_[bone].low, boxes_[bone].high);
+            raise(spread_, glm::distance(q(middle), centre_) + stretched * radius);
+            BoneDifference& d = bone_differences_[bone];
+            d.matrix = {p.linear - q.linear, p.origin - q.origin};
+            d.length = length_of_all(d.matrix.linear);
+            raise(largest_difference_, glm::length(d.matrix(middle)) + d.length * radius);
+        }
+    }
+
+    [[nodiscard]] double bound(const Difference& d, double bone_difference) const {
+        constexpr double kRounding = 1.0 + 1e-9;
+        return kRounding * (d.exact_total * bone_difference + d.decoded_total * stretch_ * d.place +
+                            d.weights * spread_ + d.weight_sum * centre_distance_);
+    }
+
+    PosableMesh exact_, decoded_;
+    const std::vector<std::uint32_t>* map_;
+    std::vector<bool> touched_;  // by a target of either scene
+    bool is_measured_ = false;
+    bool has_bounds_ = false;
+    std::vector<Group> groups_;
+    std::vector<Difference> differences_;
+    Difference worst_case_;
+    std::vector<Box<glm::dvec3>> boxes_;  // per bone: bounds of the vertices that it moves, in mesh space
+    std::vector<BoneDifference> bone_differences_;
+    double largest_difference_ = 0.0;
+    double stretch_ = 0.0;
+    double spread_ = 0.0;  // metres from the centre, over everything that the bones move
+    glm::dvec3 centre_{0.0};
+    double centre_distance_ = 0.0;  // from the origin
+};
+
+/// Joints that move no vertex.
+std::vector<std::uint32_t> loose_joints(const Scene& scene) {
+    std::vector<bool> moves(scene.joints.size());
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.influences == 0 && mesh.joint != kNone) moves[mesh.joint] = true;
+        for (const std::uint32_t joint : mesh.palette.joints) moves[joint] = true;
+    }
+    std::vector<std::uint32_t> loose;
+    for (std::uint32_t joint = 0; joint < moves.size(); ++joint) {
+        if (!moves[joint]) loose.push_back(joint);
+    }
+    return loose;
+}
+
+/// Test points of a joint, in its own space: its origin and, if the scene has no vertices to show rotation and scale,
+/// one on each axis.
+std::vector<glm::dvec3> points_of_joints(const Scene& scene) {
+    std::vector<glm::dvec3> points{glm::dvec3(0.0)};
+    const bool has_vertices =
+        std::any_of(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& mesh) { return !mesh.positions.empty(); });
+    if (has_vertices) return points;
+    const double reach = kJointReach * height_at_rest(scene);
+    for (int axis = 0; axis < 3; ++axis) {
+        points.emplace_back(0.0);
+        points.back()[axis] = reach;
+    }
+    return points;
+}
+
+/// \param limit  maximum number of samples between the keys
+std::vector<double> sample_times(const Clip& exact, const Clip& decoded, std::size_t limit) {
+    std::vector<double> times;
+    for (const Clip* clip : {&exact, &decoded}) {
+        for (const Track& track : clip->tracks) times.insert(times.end(), track.times.begin(), track.times.end());
+        for (const Play& play : clip->plays) {
+            for (std::uint32_t frame = 0; frame <= play.frames; ++frame) {
+                const double at = frame / double{clip->frame_rate};
+                if (at <= length_of(*clip, play)) times.push_back(clip->frame_start + at);
+            }
+        }
+        std::sort(times.begin(), times.end());
+        times.erase(std::unique(times.begin(), times.end()), times.end());
+    }
+    if (times.empty()) return times;
+    const double start = times.front();
+    const double length = times.back() - start;
+    const double most = std::min(kMostSamples, static_cast<double>(limit));
+    const double steps = std::min(std::ceil(length * kSamplesPerSecond), most);
+    const double step = steps < most ? 1.0 / kSamplesPerSecond : length / steps;
+    for (unsigned k = 1; k < steps; ++k) times.push_back(start + k * step);
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+}
+
+class Comparison {
+public:
+    Comparison(const Scene& exact, const Scene& decoded, VertexMaps maps) : exact_(exact), decoded_(decoded) {
+        pairs_.reserve(exact.meshes.size());
+        for (std::size_t mesh = 0; mesh < exact.meshes.size(); ++mesh) {
+            const bool is_mapped = mesh < maps.size() && !maps[mesh].empty();
+            pairs_.emplace_back(exact.meshes[mesh], decoded.meshes[mesh], is_mapped ? &maps[mesh] : nullptr);
+        }
+        loose_ = loose_joints(exact);
+        points_ = points_of_joints(exact);
+    }
+
+    [[nodiscard]] bool is_possible() const {
+        return std::all_of(pairs_.begin(), pairs_.end(), [](const MeshPair& pair) { return pair.can_be_compared(); });
+    }
+
+    void measure_rest() {
+        evaluate_rest(exact_, exact_pose_);
+        evaluate_rest(decoded_, decoded_pose_);
+        measure(kNone, 0.0);
+    }
+
+    void measure_at(std::uint32_t clip, double seconds) {
+        evaluate(exact_, exact_.clips[clip], seconds, exact_pose_);
+        evaluate(decoded_, decoded_.clips[clip], seconds, decoded_pose_);
+        measure(clip, seconds);
+    }
+
+    [[nodiscard]] const MeasuredError& worst() const { return worst_; }
+    void start_anew() {
+        worst_ = {};
+        for (MeshPair& pair : pairs_) pair.forget_pose();
+    }
+
+private:
+    void measure(std::uint32_t clip, double seconds) {
+        bool has_risen = false;
+        for (std::uint32_t mesh = 0; mesh < pairs_.size(); ++mesh) {
+            if (!pairs_[mesh].measure(exact_pose_, decoded_pose_, mesh, worst_)) continue;
+            worst_.joint = kNone;
+            has_risen = true;
+        }
+        for (const std::uint32_t joint : loose_) {
+            const glm::dmat4 difference = exact_pose_.joints[joint] - decoded_pose_.joints[joint];
+            double error = 0.0;
+            for (const glm::dvec3& point : points_)
+                raise(error, glm::length(glm::dvec3(difference * glm::dvec4(point, 1.0))));
+            if (error <= worst_.metres) continue;
+            worst_.metres = or_infinite(error);
+            worst_.mesh = worst_.vertex = kNone;
+            worst_.joint = joint;
+            has_risen = true;
+        }
+        if (!has_risen) return;
+        worst_.clip = clip;
+        worst_.seconds = seconds;
+    }
+
+    const Scene& exact_;
+    const Scene& decoded_;
+    std::vector<MeshPair> pairs_;
+    std::vector<std::uint32_t> loose_;
+    std::vector<glm::dvec3> points_;  // per loose joint, see points_of_joints
+    EvaluatedPose exact_pose_, decoded_pose_;
+    MeasuredError worst_;
+};
+
+/// At most one per clip; fewer for large meshes, since every thread copies them.
+std::size_t most_threads(const Scene& scene, std::size_t clips) {
+    constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
+    constexpr std::size_t kVertexBytes = 512;  // in both scenes, roughly
+    constexpr std::size_t kShiftBytes = 64;    // per vertex that a target displaces
+    std::size_t bytes = 1;
+    for (const Mesh& mesh : scene.meshes)
+        bytes += mesh.positions.size() * (kVertexBytes + kShiftBytes * mesh.targets.size());
+    return std::max<std::size_t>(std::min(clips, kMostBytes / bytes), 1);
+}
+
+}  // namespace
+
+std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decoded, std::span<const std::uint32_t> clips,
+                                         const MeasureOptions& options) {
+    std::vector<MeasuredError> errors(clips.size() + 1);
+    const auto impossible = [&] {
+        for (MeasuredError& error : errors) error.metres = kInfinity;
+        return errors;
+    };
+    if (exact.joints.size() != decoded.joints.size() || exact.meshes.size() != decoded.meshes.size() ||
+        exact.clips.size() != decoded.clips.size())
+        return impossible();
+    for (std::size_t mesh = 0; mesh < exact.meshes.size(); ++mesh) {
+        if (exact.meshes[mesh].targets.size() != decoded.meshes[mesh].targets.size()) return impossible();
+    }
+    const std::size_t threads = std::clamp<std::size_t>(options.threads, 1, most_threads(exact, clips.size()));
+    Comparison comparison(exact, decoded, options.vertex_maps);
+    if (!comparison.is_possible()) return impossible();
+    comparison.measure_rest();
+    errors.back() = comparison.worst();
+
+    const WorkLimits limits = find_limits(exact);
+    if (!limits.can_be_measured) return impossible();
+    std::vector<std::vector<double>> times;
+    std::size_t total = 0;
+    for (const std::uint32_t clip : clips) {
+        times.push_back(sample_times(exact.clips[clip], decoded.clips[clip], limits.clips[clip].samples));
+        total += times.back().size();
+    }
+    SharedProgress progress(options.progress, static_cast<double>(total));
+    std::vector<Comparison> workers(threads, comparison);
+    in_parallel(threads, clips.size(), [&](std::size_t k, std::size_t worker) {
+        Comparison& own = workers[worker];
+        own.start_anew();
+        constexpr std::size_t kCoarse = 64;
+        std::size_t done = 0;
+        for (const bool is_coarse :
+             {true, false}) {  // far apart first: a large error found early lets later poses be skipped
+            for (std::size_t t = 0; t < times[k].size(); ++t) {
+                if ((t % kCoarse == 0) != is_coarse) continue;
+                own.measure_at(clips[k], times[k][t]);
+                if (++done % kCoarse == 0) progress.add(kCoarse);
+            }
+        }
+        progress.add(static_cast<double>(done % kCoarse));
+        errors[k] = own.worst();
+    });
+    return errors;
+}
+
+MeasuredError measure_error(const Scene& exact, const Scene& decoded, const MeasureOptions& options) {
+    std::vector<std::uint32_t> clips(exact.clips.size());
+    std::iota(clips.begin(), clips.end(), 0u);
+    const std::vector<MeasuredError> errors = measure_clips(exact, decoded, clips, options);
+    MeasuredError worst = errors.back();
+    for (const MeasuredError& error : errors) {
+        if (error.metres > worst.metres) worst = error;
+    }
+    return worst;
+}
+
+std::string quoted_name(std::string_view name, std::uint32_t number) {
+    return name.empty() ? '#' + std::to_string(number) : '"' + std::string(name) + '"';
+}
+
+std::string place_of(const Scene& scene, const MeasuredError& error) {
+    std::string place;
+    if (error.mesh != kNone) {
+        place = "mesh " + quoted_name(scene.meshes[error.mesh].name, error.mesh) + ", vertex " +
+                std::to_string(error.vertex);
+    } else if (error.joint != kNone) {
+        place = "joint " + quoted_name(scene.joints[error.joint].name, error.joint);
+    } else {
+        return {};
+    }
+    if (error.clip == kNone) return place + ", at rest";
+    std::string seconds = std::to_string(error.seconds);
+    seconds.resize(seconds.size() - 3);  // milliseconds
+    return place + ", clip " + quoted_name(scene.clips[error.clip].name, error.clip) + " at " + seconds + " s";
+}
+
+}  // namespace bendy::converter

@@ -1,0 +1,474 @@
+#include "auto_rig.h"
+
+#include "anatomy.h"
+#include "clip_rotations.h"
+#include "find_humanoid.h"
+#include "humanoid.h"
+#include "limb_chains.h"
+#include "quadruped.h"
+#include "scene/rest_frames.h"
+
+#include <bendy/format/trig.h>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace bendy::converter {
+namespace {
+
+/// The direction of a limb's middle joint, and how many clips support it; 0: taken from the rest pose, or a human's.
+struct ProposedBend {
+    glm::dvec3 way{0.0};  ///< in model space at rest
+    std::uint32_t clips = 0;
+};
+
+/// Radians as whole degrees.
+std::string degrees(float radians) {
+    const double exact = static_cast<double>(radians) * 180.0 / trig::kPi;
+    return std::to_string(std::lround(exact + (exact < 0.0 ? -1e-4 : 1e-4)));  // half degrees round outward
+}
+
+std::string range_of(const ConstraintRecord& constraint, std::size_t axis) {
+    return degrees(constraint.rotation_min[axis]) + " to " + degrees(constraint.rotation_max[axis]);
+}
+
+/// Formats with a fixed number of decimals, independent of the locale.
+std::string decimals(double number, int places) {
+    const double power = places == 1 ? 10.0 : 100.0;
+    const long long whole = std::llround(std::abs(number) * power);
+    const auto unit = static_cast<long long>(power);
+    std::string fraction = std::to_string(whole % unit);
+    fraction.insert(0, static_cast<std::size_t>(places) - fraction.size(), '0');
+    return (number < 0.0 && whole != 0 ? "-" : "") + std::to_string(whole / unit) + '.' + fraction;
+}
+
+std::string vector_of(const glm::dvec3& v) {
+    return '(' + decimals(v.x, 2) + ", " + decimals(v.y, 2) + ", " + decimals(v.z, 2) + ')';
+}
+
+std::string clips_of(std::uint32_t clips) {
+    return clips == 1 ? "1 clip" : std::to_string(clips) + " clips";
+}
+
+std::string part_of(const JointAnatomy& anatomy) {
+    constexpr std::array<const char*, 15> kWords{
+        "collarbone", "shoulder",  "elbow",    "wrist",           "hip",
+        "knee",       "ankle",     "toes",     "spine",           "neck",
+        "tail",       "front leg", "hind leg", "front leg joint", "hind leg joint"};
+    std::string words = kWords.at(static_cast<std::size_t>(anatomy.part));
+    const bool is_in_middle =
+        anatomy.part == BodyJoint::spine || anatomy.part == BodyJoint::neck || anatomy.part == BodyJoint::tail;
+    if (!is_in_middle) words.insert(0, anatomy.is_right ? "right " : "left ");
+    return anatomy.number == 0 ? words : words + ' ' + std::to_string(anatomy.number);
+}
+
+std::string way_of(const glm::dvec3& way, const Stance& stance) {
+    std::array<std::pair<double, const char*>, 6> ways{{{glm::dot(way, stance.forward), "forward"},
+                                                        {-glm::dot(way, stance.forward), "backward"},
+                                                        {glm::dot(way, stance.up), "up"},
+                                                        {-glm::dot(way, stance.up), "down"},
+                                                        {glm::dot(way, stance.left), "left"},
+                                                        {-glm::dot(way, stance.left), "right"}}};
+    std::stable_sort(ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::string words = ways[0].second;
+    if (ways[1].first > 0.5) words += std::string(" and ") + ways[1].second;
+    return words;
+}
+
+/// The joint's name, or its number if it has none.
+std::string name_of(const Scene& scene, std::uint32_t joint) {
+    const std::string& name = scene.joints[joint].name;
+    return name.empty() ? '#' + std::to_string(joint) : name;
+}
+
+/// A one-line description of a proposal for the report.
+std::string line_of(const Scene& scene, const Chain& chain, const std::optional<ProposedBend>& bend,
+                    const Stance& stance) {
+    constexpr std::size_t kShown = 12;
+    std::vector<bool> is_passive(scene.joints.size());
+    for (const Chain::Weight& weight : chain.weights) is_passive[weight.joint] = weight.weight == 0.0f;
+    std::vector<std::uint32_t> joints = path_of(scene, chain.record.start, chain.record.effector);
+    joints.erase(std::remove_if(joints.begin(), joints.end(), [&](std::uint32_t joint) { return is_passive[joint]; }),
+                 joints.end());
+    std::string line = "chain " + chain.name + ": ";
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        if (i > 0) line += " > ";
+        if (joints.size() > kShown && i == kShown - 1) {
+            line += "... > ";
+            i = joints.size() - 1;
+        }
+        line += name_of(scene, joints[i]);
+    }
+    if (chain.record.target != kNone) line += " to " + name_of(scene, chain.record.target);
+    line.append(", ").append(kValueNames<Solver>.at(chain.record.solver));
+    if (!bend) return line;
+    const bool is_arm = chain.name.find("Arm") != std::string::npos;
+    line += std::string(is_arm ? ", elbow" : ", knee") + " points " + way_of(bend->way, stance);
+    return bend->clips == 0 ? line : line + " as in " + clips_of(bend->clips);
+}
+
+/// \param whose  owner of the typical ranges, as `a human's`
+std::string line_of(const Scene& scene, const ProposedConstraint& proposed, const std::string& whose) {
+    const ConstraintRecord& constraint = proposed.constraint;
+    std::string line = part_of(proposed.anatomy) + ", " + name_of(scene, proposed.anatomy.joint) + ": ";
+    const auto model = static_cast<ConstraintModel>(constraint.model);
+    if (model == ConstraintModel::hinge) {
+        line += "hinge about " + vector_of(proposed.axis) + ", " + range_of(constraint, 0) + " degrees";
+    } else if (bends(proposed.anatomy.part)) {
+        line += "bends " + range_of(constraint, 2) + " degrees about " + vector_of(proposed.axis) + ", sideways " +
+                range_of(constraint, 1) + ", twist " + range_of(constraint, 0);
+    } else {
+        line += "swing " + range_of(constraint, 1) + " and " + range_of(constraint, 2) + " degrees, twist " +
+                range_of(constraint, 0);
+    }
+    if (proposed.is_axis_fitted) {
+        line += ", axis fitted to " + clips_of(proposed.clips) + ", " + decimals(proposed.axis_off, 1) +
+                " degrees off " + whose;
+    }
+    if (proposed.growth > 0.05 && proposed.clips > 0) {
+        line += ", up to " + std::to_string(std::lround(std::ceil(proposed.growth))) + " degrees wider than " + whose +
+                " for " + clips_of(proposed.clips);
+    }
+    return line;
+}
+
+using Bone = HumanBone;
+
+/// Completes the humanoid from the skeleton's shape: limbs that are missing on one or both sides, hips, spine and head.
+void complete(const Scene& scene, const RestFrames& rest, const ClipRotations& clips, const std::vector<bool>& chosen,
+              NamedHumanoid& found) {
+    Humanoid& bones = found.bones;
+    const auto has_pair = [&](Limb left, Limb right) {
+        return bones.has(bones_of(left).lower) && bones.has(bones_of(right).lower);
+    };
+    const bool has_arms = has_pair(Limb::left_arm, Limb::right_arm);
+    const bool has_legs = has_pair(Limb::left_leg, Limb::right_leg);
+    if (!has_arms || !has_legs) {
+        if (const std::optional<ShapedHumanoid> shaped = find_by_shape(scene, rest, clips, chosen)) {
+            found.is_by_shape = true;
+            found.contradicts_names = shaped->contradicts_names;
+            const auto take = [&](Bone first, Bone last, std::size_t loose) {
+                for (auto left = static_cast<std::size_t>(first); left <= static_cast<std::size_t>(last); ++left) {
+                    for (const Bone bone : {static_cast<Bone>(left), mirrored(static_cast<Bone>(left))})
+                        bones[bone] = shaped->bones[bone];
+                }
+                for (const std::size_t side : {0u, 1u}) {
+                    found.loose_ends[loose + side] = kNone;
+                    found.mesh_ends[loose + side].reset();
+                }
+            };
+            if (!has_arms) take(Bone::left_shoulder, Bone::left_thumb, 0);
+            if (!has_legs) take(Bone::left_upper_leg, Bone::left_toes, 2);
+            for (const Bone bone : {Bone::hips, Bone::spine, Bone::neck, Bone::head}) {
+                if (!has_arms && !has_legs && !bones.has(Bone::head)) bones[bone] = shaped->bones[bone];
+            }
+        }
+    }
+    find_mesh_ends(scene, rest, found);
+    find_trunk_by_shape(scene, rest, chosen, bones);
+}
+
+bool has_all_limbs(const Humanoid& bones) {
+    return bones.has(Bone::left_lower_arm) && bones.has(Bone::right_lower_arm) && bones.has(Bone::left_lower_leg) &&
+           bones.has(Bone::right_lower_leg);
+}
+
+/// Completes a humanoid found by name from the shape of the bound joints; if that is not enough, from all joints.
+NamedHumanoid find_the_rest(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
+                            const std::vector<bool>& bound, NamedHumanoid named) {
+    complete(scene, rest, clips, bound, named);
+    if (has_all_limbs(named.bones)) return named;
+    // A file may contain only some of its character's meshes.
+    std::vector<bool> all(scene.joints.size(), true);
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.joint != kNone && mesh.influences > 0) all[mesh.joint] = false;  // carries a mesh, is not a bone
+    }
+    NamedHumanoid among_all = find_humanoid(scene, rest, all);
+    complete(scene, rest, clips, all, among_all);
+    return has_all_limbs(among_all.bones) ? among_all : named;
+}
+
+/// The orientation of a character at rest.
+struct Posture {
+    Stance stance;
+    bool is_upright = false;  ///< the spine goes up from the legs, as a human's does
+};
+
+class Measurer {
+public:
+    Measurer(const RestFrames& rest, const NamedHumanoid& found) : rest_(rest), found_(found) {}
+
+    /// Left is where the left limbs are, up is where the spine goes or the legs come from; forward follows. Nothing if
+    /// that does not give axes.
+    [[nodiscard]] std::optional<Posture> measure() const {
+        const auto arms = line(Bone::right_upper_arm, Bone::left_upper_arm);
+        const auto legs = line(Bone::right_upper_leg, Bone::left_upper_leg);
+        if (!arms && !legs) return std::nullopt;
+        const auto left = unit((arms ? *arms : glm::dvec3(0.0)) + (legs ? *legs : glm::dvec3(0.0)));
+        const auto stands = up_from_legs();
+        const auto spine = up_spine();
+        if (!left || (!stands && !spine)) return std::nullopt;
+        Posture posture;
+        posture.is_upright = !stands || !spine || glm::dot(*stands, *spine) > kUpright;
+        const auto up = unit_across(posture.is_upright && spine ? *spine : *stands, *left);
+        if (!up) return std::nullopt;
+        posture.stance = {*left, *up, glm::cross(*left, *up)};
+        return posture;
+    }
+
+    /// Whether the toes point forward as given by left and right.
+    [[nodiscard]] bool has_feet_forward(const Stance& stance) const {
+        for (const auto& [foot, toes] :
+             {std::pair(Bone::left_foot, Bone::left_toes), std::pair(Bone::right_foot, Bone::right_toes)}) {
+            const auto direction = line(foot, toes);
+            if (direction && glm::dot(*direction, stance.forward) < -0.3) return false;
+        }
+        return true;
+    }
+
+private:
+    static constexpr double kUpright = 0.7;  // cosine: 45 degrees
+
+    [[nodiscard]] std::optional<glm::dvec3> line(Bone from, Bone to) const {
+        if (!found_.bones.has(from) || !found_.bones.has(to)) return std::nullopt;
+        return rest_.direction(found_.bones[from], found_.bones[to]);
+    }
+
+    [[nodiscard]] std::optional<glm::dvec3> up_from_legs() const {
+        glm::dvec3 sum(0.0);
+        for (const Limb leg : {Limb::left_leg, Limb::right_leg}) {
+            const LimbBones bones = bones_of(leg);
+            if (!found_.bones.has(bones.upper) || !found_.bones.has(bones.lower)) continue;
+            const std::optional<glm::dvec3> end = end_of(found_, rest_, leg);
+            const glm::dvec3 foot = end ? *end : rest_.position(found_.bones[bones.lower]);
+            if (const auto up = unit(rest_.position(found_.bones[bones.upper]) - foot)) sum += *up;
+        }
+        return unit(sum);
+    }
+
+    [[nodiscard]] std::optional<glm::dvec3> up_spine() const {
+        for (const Bone top : {Bone::neck, Bone::head}) {
+            for (const Bone bottom : {Bone::hips, Bone::spine}) {
+                if (const auto up = line(bottom, top)) return up;
+            }
+        }
+        return std::nullopt;
+    }
+
+    const RestFrames& rest_;
+    const NamedHumanoid& found_;
+};
+
+constexpr std::array<const char*, kLimbs> kChainNames{"LeftArm", "RightArm", "LeftLeg", "RightLeg"};
+
+/// Makes chains for limbs without a joint at the end. If a hand or foot is moved by its own rig, that joint's rest
+/// position is the tip, and the joint the target; otherwise the tip is where the mesh ends.
+std::vector<Chain> make_loose_chains(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found,
+                                     const Stance& stance) {
+    std::vector<Chain> chains;
+    for (std::size_t i = 0; i < kLimbs; ++i) {
+        const LimbBones bones = bones_of(static_cast<Limb>(i));
+        const std::optional<glm::dvec3> end = end_of(found, rest, static_cast<Limb>(i));
+        if (found.bones.has(bones.end) || !found.bones.has(bones.upper) || !found.bones.has(bones.lower) || !end)
+            continue;
+        const std::uint32_t upper = found.bones[bones.upper];
+        const std::uint32_t lower = found.bones[bones.lower];
+        const auto tip = rest.point_in_space_of(lower, *end);
+        if (!tip) continue;
+        Chain chain;
+        chain.name = kChainNames[i];
+        chain.record.start = upper;
+        chain.record.effector = lower;
+        if (found.loose_ends[i] != kNone && *end == rest.position(found.loose_ends[i]))
+            chain.record.target = found.loose_ends[i];
+        chain.record.solver = static_cast<std::uint8_t>(Solver::two_bone);
+        chain.record.flags = kProposed;
+        chain.record.tip_offset = {static_cast<float>(tip->x), static_cast<float>(tip->y), static_cast<float>(tip->z)};
+        std::optional<glm::dvec3> bend = bend_of(rest, upper, lower, *end);
+        const auto along = unit(*end - rest.position(upper));
+        if (!bend && along) bend = unit_across(i < 2 ? -stance.forward : stance.forward, *along);
+        if (const auto pole = bend ? rest.to_space_of(scene.joints[upper].parent, *bend) : std::nullopt) {
+            chain.record.pole_vector = {static_cast<float>(pole->x), static_cast<float>(pole->y),
+                                        static_cast<float>(pole->z)};
+        }
+        for (const std::uint32_t joint : path_of(scene, upper, lower)) {
+            if (joint != upper && joint != lower) chain.weights.push_back({joint, 0.0f});
+        }
+        chains.push_back(std::move(chain));
+    }
+    return chains;
+}
+
+/// The directions in which the limbs' middle joints point.
+class Bends {
+public:
+    Bends(const Scene& scene, const RestFrames& rest, const ClipRotations& clips, const NamedHumanoid& found,
+          const Stance& stance)
+        : scene_(scene), rest_(rest) {
+        for (std::size_t limb = 0; limb < kLimbs; ++limb) bends_[limb] = measure(clips, found, limb);
+        for (const std::size_t left : {0u, 2u}) {
+            // Makes both sides alike: the mean of one and the other's mirror image, if they roughly agree.
+            std::optional<ProposedBend>& a = bends_[left];
+            std::optional<ProposedBend>& b = bends_[left + 1];
+            const auto mirror = [&](const glm::dvec3& v) { return v - 2.0 * glm::dot(v, stance.left) * stance.left; };
+            if (a && !b) b = ProposedBend{mirror(a->way), a->clips};
+            if (b && !a) a = ProposedBend{mirror(b->way), b->clips};
+            if (!a || !b || glm::dot(mirror(a->way), b->way) < 0.5) continue;
+            const auto mean = unit(a->way + mirror(b->way));
+            if (!mean) continue;
+            a->way = *mean;
+            b->way = mirror(*mean);
+        }
+    }
+
+    /// Sets the pole to the direction in which the clips bend the limb, if there is one.
+    void turn_pole(Chain& chain) const {
+        const std::optional<ProposedBend> bend = of(chain);
+        if (!bend || bend->clips == 0) return;
+        const auto pole = rest_.to_space_of(scene_.joints[chain.record.start].parent, bend->way);
+        if (!pole) return;
+        chain.record.pole_vector = {static_cast<float>(pole->x), static_cast<float>(pole->y),
+                                    static_cast<float>(pole->z)};
+    }
+
+    /// The bend of a limb's chain; nothing for other chains.
+    [[nodiscard]] std::optional<ProposedBend> of(const Chain& chain) const {
+        const auto* const name = std::find(kChainNames.begin(), kChainNames.end(), chain.name);
+        if (name == kChainNames.end()) return std::nullopt;
+        const auto& bend = bends_[static_cast<std::size_t>(name - kChainNames.begin())];
+        if (bend) return bend;
+        const auto& pole = chain.record.pole_vector;
+        const std::uint32_t parent = scene_.joints[chain.record.start].parent;
+        const glm::dvec3 way(pole[0], pole[1], pole[2]);
+        if (way == glm::dvec3(0.0)) return std::nullopt;
+        return ProposedBend{parent == kNone ? way : rest_.turn(parent) * way, 0};
+    }
+
+private:
+    [[nodiscard]] std::optional<ProposedBend> measure(const ClipRotations& clips, const NamedHumanoid& found,
+                                                      std::size_t limb) const {
+        constexpr double kClearly = 0.4;  // minimum agreement of the clips
+        const LimbBones bones = bones_of(static_cast<Limb>(limb));
+        if (!found.bones.has(bones.upper) || !found.bones.has(bones.lower)) return std::nullopt;
+        ClipRotations::Limb two_bones{found.bones[bones.upper], found.bones[bones.lower], found.bones[bones.end]};
+        if (two_bones.end == kNone) {
+            const auto end = end_of(found, rest_, static_cast<Limb>(limb));
+            const auto tip = end ? rest_.point_in_space_of(two_bones.middle, *end) : std::nullopt;
+            if (!tip) return std::nullopt;
+            two_bones.end = two_bones.middle;
+            two_bones.tip = *tip;
+        }
+        const std::optional<ClipRotations::Bend> bend = clips.bend_of(two_bones);
+        const std::uint32_t parent = scene_.joints[two_bones.start].parent;
+        if (!bend || bend->agreement < kClearly) return std::nullopt;
+        return ProposedBend{parent == kNone ? bend->direction : rest_.turn(parent) * bend->direction, bend->clips};
+    }
+
+    const Scene& scene_;
+    const RestFrames& rest_;
+    std::array<std::optional<ProposedBend>, kLimbs> bends_;
+};
+
+/// Adds limits for joints that have none.
+/// \param whose  see line_of
+void add_limits(Scene& scene, const RestFrames& rest, const ClipRotations& clips,
+                const std::vector<JointAnatomy>& anatomy, const glm::dvec3& left, const std::string& whose,
+                const std::vector<bool>& claimed, Report& report) {
+    for (const ProposedConstraint& proposed : fit_to_clips(scene, rest, clips, anatomy, left, report)) {
+        Joint& joint = scene.joints[proposed.anatomy.joint];
+        if (!joint.constraints.empty() || (!claimed.empty() && claimed[proposed.anatomy.joint])) continue;
+        joint.constraints.push_back(proposed.constraint);
+        report.propose(line_of(scene, proposed, whose));
+        if (proposed.beyond > 0.5) {
+            report.warn("auto-rig: clips turn the joint by up to " + std::to_string(std::lround(proposed.beyond)) +
+                            " degrees more than such a joint can turn, and leave its proposed limit",
+                        name_of(scene, proposed.anatomy.joint));
+        }
+    }
+}
+
+void rig_quadruped(Scene& scene, const RestFrames& rest, const ClipRotations& clips, const Quadruped& animal,
+                   const std::vector<bool>& claimed, Report& report) {
+    for (const std::size_t chain : add_new_chains(scene, make_quadruped_chains(scene, rest, animal, kProposed)))
+        report.propose(line_of(scene, scene.chains[chain], std::nullopt, animal.stance));
+    add_limits(scene, rest, clips, find_anatomy(rest, animal), animal.stance.left, "an animal's", claimed, report);
+}
+
+void rig_human(Scene& scene, const RestFrames& rest, const ClipRotations& clips, const NamedHumanoid& found,
+               const std::vector<bool>& claimed, Report& report) {
+    const std::optional<Posture> posture = Measurer(rest, found).measure();
+    if (!posture) {
+        return report.warn(
+            "auto-rig: neither the joints' names nor the skeleton's shape say where the limbs of a human or of an "
+            "animal on four legs are, nothing proposed");
+    }
+    const Stance& stance = posture->stance;
+    if (!Measurer(rest, found).has_feet_forward(stance))
+        return report.warn("auto-rig: the feet point backward from what left and right say, nothing proposed");
+    if (found.contradicts_names) {
+        report.warn(
+            "auto-rig: left and right in the joints' names contradict the way that feet and knees point, left and "
+            "right below are the character's own");
+    }
+    Report unheard;  // discarded: warnings about missing limbs
+    std::vector<Chain> chains = make_limb_chains(scene, rest, found.bones, stance, kProposed, {}, unheard);
+    for (Chain& chain : make_loose_chains(scene, rest, found, stance)) chains.push_back(std::move(chain));
+    const Bends bends(scene, rest, clips, found, stance);
+    for (Chain& chain : chains) bends.turn_pole(chain);
+    for (const std::size_t chain : add_new_chains(scene, std::move(chains)))
+        report.propose(line_of(scene, scene.chains[chain], bends.of(scene.chains[chain]), stance));
+    if (!posture->is_upright)
+        return report.warn("auto-rig: the spine does not go up from the legs as a human's, no limits proposed");
+    add_limits(scene, rest, clips, find_anatomy(scene, rest, found, stance), stance.left, "a human's", claimed, report);
+}
+
+/// Whether the names give both arms and legs of a body whose spine goes up from the legs.
+bool is_upright_human(const RestFrames& rest, const NamedHumanoid& named) {
+    if (!has_all_limbs(named.bones)) return false;
+    const std::optional<Posture> posture = Measurer(rest, named).measure();
+    return posture && posture->is_upright;
+}
+
+}  // namespace
+
+void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report) {
+    const RestFrames rest(scene);
+    const ClipRotations clips(scene);
+    Report unheard;  // discarded: reported when the extension's own chains were made
+    if (const std::optional<VrmHumanoid> vrm = read_vrm_humanoid(scene, unheard)) {
+        NamedHumanoid found;
+        found.bones = vrm->bones;
+        return rig_human(scene, rest, clips, found, claimed, report);
+    }
+    const std::vector<bool> bound = find_bound_joints(scene);
+    NamedHumanoid named = find_humanoid(scene, rest, bound);
+    if (!is_upright_human(rest, named)) {
+        if (const std::optional<Quadruped> animal = find_quadruped(scene, rest, bound))
+            return rig_quadruped(scene, rest, clips, *animal, claimed, report);
+    }
+    named = find_the_rest(scene, rest, clips, bound, named);
+    rig_human(scene, rest, clips, named, claimed, report);
+}
+
+void add_vrm_chains(Scene& scene, Report& report) {
+    const std::optional<VrmHumanoid> vrm = read_vrm_humanoid(scene, report);
+    if (!vrm) return;
+    Stance stance;
+    if (vrm->faces_backward) {
+        stance.left = -stance.left;
+        stance.forward = -stance.forward;
+    }
+    const RestFrames rest(scene);
+    add_new_chains(scene, make_limb_chains(scene, rest, vrm->bones, stance, 0, vrm->place, report));
+}
+
+}  // namespace bendy::converter

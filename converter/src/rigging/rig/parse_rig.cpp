@@ -1,0 +1,245 @@
+#include "parse_rig.h"
+
+#include "scene/failure.h"
+#include "scene/source/source_file.h"
+
+#include <bendy/format/constraint.h>
+#include <bendy/format/diagnostics.h>
+
+#include <bitset>
+#include <unordered_set>
+
+namespace bendy::converter {
+namespace {
+
+/// Fails if a member is present that the model does not use.
+void refuse(Fields& fields, std::string_view key, ConstraintModel model) {
+    if (fields.find(key) == nullptr) return;
+    fail(fields.place_of(key),
+         "it means nothing for model " + std::string(kValueNames<ConstraintModel>[static_cast<std::size_t>(model)]));
+}
+
+void read_rotation_limits(Fields& fields, ConstraintModel model, ConstraintRecord& constraint) {
+    if (model == ConstraintModel::largest_angle) {
+        if (const OrderedJson* angle = fields.find("angle"); angle != nullptr && !angle->is_null()) {
+            fields.read_angle("angle", constraint.rotation_max[0]);
+            if (constraint.rotation_max[0] < 0.0f) fail(fields.place_of("angle"), "it is less than 0");
+        }
+    } else {
+        refuse(fields, "angle", model);
+    }
+    const std::size_t ranges = model == ConstraintModel::largest_angle ? 0 : limited_axes(model);
+    const bool is_swing =
+        model == ConstraintModel::swing_twist_ellipse || model == ConstraintModel::swing_twist_pyramid;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (axis >= ranges) {
+            refuse(fields, kAxisNames[axis], model);
+            continue;
+        }
+        float& low = constraint.rotation_min[axis];
+        float& high = constraint.rotation_max[axis];
+        fields.read_angle_range(kAxisNames[axis], low, high);
+        if (is_swing && axis != 0 && !(low <= 0.0f && high >= 0.0f))
+            fail(fields.place_of(kAxisNames[axis]), "a swing's range must hold 0");
+    }
+}
+
+void read_translation(Fields& fields, AngleUnit unit, ConstraintRecord& constraint) {
+    const OrderedJson* value = fields.find("translation");
+    if (value == nullptr) return;
+    Fields translation(*value, fields.place_of("translation"), unit);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        translation.read_range(kAxisNames[axis], constraint.translation_min[axis], constraint.translation_max[axis]);
+    translation.refuse_others();
+}
+
+void read_flag(Fields& fields, std::string_view key, std::uint8_t flag, std::uint8_t& flags) {
+    bool is_set = false;
+    fields.read(key, is_set);
+    if (is_set) flags |= flag;
+}
+
+}  // namespace
+
+void check_constraint_at(const ConstraintRecord& constraint, const std::string& place) {
+    ConstraintRecord admitted = constraint;
+    admitted.flags |= kRestOutside;
+    Faults faults;
+    check_constraint(admitted, 0, 0, faults);
+    if (!faults.empty()) fail(place, describe(faults.list().front()));
+}
+
+ConstraintRecord parse_constraint(const OrderedJson& value, const std::string& place, AngleUnit unit) {
+    Fields fields(value, place, unit);
+    ConstraintRecord constraint;
+    fields.need("model");
+    fields.read_word("model", kValueNames<ConstraintModel>, constraint.model);
+    const auto model = static_cast<ConstraintModel>(constraint.model);
+    if (model == ConstraintModel::euler_box) {
+        fields.read_word("order", kOrderNames, constraint.euler_order);
+    } else {
+        refuse(fields, "order", model);
+    }
+    fields.read_word("scope", kValueNames<ConstraintScope>, constraint.scope);
+    fields.read_rotation("frame", constraint.frame);
+    read_rotation_limits(fields, model, constraint);
+    read_translation(fields, unit, constraint);
+    fields.read("stiffness", constraint.stiffness, 0.0f, 1.0f);
+    fields.read_angles("preferred", constraint.preferred);
+    fields.read_angle("soft_zone", constraint.soft_zone);
+    if (constraint.soft_zone < 0.0f) fail(fields.place_of("soft_zone"), "it is less than 0");
+    read_flag(fields, "approximated", kApproximated, constraint.flags);
+    read_flag(fields, "proposed", kProposed, constraint.flags);
+    read_flag(fields, "rest_outside", kRestOutside, constraint.flags);
+    fields.refuse_others();
+    check_constraint_at(constraint, place);
+    return constraint;
+}
+
+std::vector<ConstraintRecord> parse_constraints(const OrderedJson& value, const std::string& place, AngleUnit unit) {
+    if (!value.is_array()) return {parse_constraint(value, place, unit)};
+    std::vector<ConstraintRecord> constraints;
+    std::bitset<kConstraintScopes> taken;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        const ConstraintRecord constraint = parse_constraint(value[i], at(place, i), unit);
+        if (taken[constraint.scope]) {
+            fail(at(place, i), "there is a second constraint of scope " +
+                                   std::string(kValueNames<ConstraintScope>[constraint.scope]));
+        }
+        taken.set(constraint.scope);
+        constraints.push_back(constraint);
+    }
+    return constraints;
+}
+
+namespace {
+
+void read_needed(Fields& fields, std::string_view key, std::string& text) {
+    fields.need(key);
+    fields.read(key, text);
+}
+
+void read_weights(Fields& fields, AngleUnit unit, RigChain& chain) {
+    const OrderedJson* value = fields.find("weights");
+    if (value == nullptr) return;
+    Fields weights(*value, fields.place_of("weights"), unit);  // an object, every key once
+    for (const auto& [name, weight] : value->items()) {
+        const std::string place = weights.place_of(name);
+        const float number = to_float(weight, place);
+        if (!(number >= 0.0f && number <= 1.0f)) fail(place, shown(weight) + " is not between 0 and 1");
+        chain.weights.emplace_back(parse_joint_key(name, place), number);
+    }
+}
+
+}  // namespace
+
+RigChain parse_chain(const OrderedJson& value, const std::string& place, AngleUnit unit) {
+    Fields fields(value, place, unit);
+    RigChain chain;
+    chain.place = place;
+    ChainRecord& record = chain.record;
+    read_needed(fields, "name", chain.name);
+    read_needed(fields, "start", chain.start);
+    read_needed(fields, "effector", chain.effector);
+    fields.read("target", chain.target);
+    fields.read("pole", chain.pole);
+    fields.read_word("solver", kValueNames<Solver>, record.solver);
+    std::uint64_t number = 0;
+    fields.read_integer("iterations", 65535, number);
+    record.iterations = static_cast<std::uint16_t>(number);
+    number = 0;
+    fields.read_integer("priority", 255, number);
+    record.priority = static_cast<std::uint8_t>(number);
+    fields.read("tolerance", record.tolerance, 0.0f);
+    fields.read("pole_vector", record.pole_vector);
+    fields.read_angle("pole_angle", record.pole_angle);
+    fields.read("tip_offset", record.tip_offset);
+    fields.read_rotation("tip_rotation", record.tip_rotation);
+    fields.read("position_weight", record.position_weight, 0.0f, 1.0f);
+    fields.read("rotation_weight", record.rotation_weight, 0.0f, 1.0f);
+    fields.read("influence", record.influence, 0.0f, 1.0f);
+    fields.read("stretch", record.stretch, 0.0f);
+    fields.read("compress", record.compress, 0.0f, 1.0f);
+    read_weights(fields, unit, chain);
+    read_flag(fields, "approximated", kApproximated, record.flags);
+    read_flag(fields, "proposed", kProposed, record.flags);
+    if (const OrderedJson* extras = fields.find("extras"); extras != nullptr && !extras->is_null())
+        chain.extras = extras->dump();
+    fields.refuse_others();
+    return chain;
+}
+
+namespace {
+
+constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
+
+}  // namespace
+
+Rig parse_rig(std::string_view text, Report& report) {
+    const auto root = parse_json_text<OrderedJson>(text, report);
+    Fields fields(root, {}, AngleUnit::degrees);
+    Rig rig;
+    if (const OrderedJson& version = fields.need("bendy_rig"); version != kVersion)
+        fail("bendy_rig", "layout " + shown(version) + " is not supported, only 1");
+    fields.read("complete", rig.complete);
+    if (const OrderedJson* joints = fields.find("joints"); joints != nullptr) {
+        Fields entries(*joints, "joints", AngleUnit::degrees);  // an object, every key once
+        for (const auto& [name, value] : joints->items()) {
+            const std::string place = entries.place_of(name);
+            rig.joints.push_back(
+                {parse_joint_key(name, place), place, parse_constraints(value, place, AngleUnit::degrees)});
+        }
+    }
+    std::unordered_set<std::string> names;
+    if (const OrderedJson* chains = fields.find("chains"); chains != nullptr) {
+        need_list(*chains, "chains");
+        for (std::size_t i = 0; i < chains->size(); ++i) {
+            RigChain chain = parse_chain((*chains)[i], at("chains", i), AngleUnit::degrees);
+            if (!names.insert(chain.name).second)
+                fail(at("chains", i) + ".name", "there is an earlier chain " + quote(chain.name));
+            rig.chains.push_back(std::move(chain));
+        }
+    }
+    if (const OrderedJson* clips = fields.find("markers"); clips != nullptr) {
+        Fields entries(*clips, "markers", AngleUnit::degrees);
+        rig.clips.emplace();
+        for (const auto& [key, value] : clips->items()) {
+            const std::string place = entries.place_of(key);
+            rig.clips->push_back({key, place, parse_markers(value, place, WrongMarkers::fail, report)});
+        }
+    }
+    if (const OrderedJson* curves = fields.find("curves"); curves != nullptr)
+        rig.curves = parse_curves(*curves, "curves");
+    std::string schema;
+    fields.read("$schema", schema);  // for editors
+    fields.refuse_others();
+    return rig;
+}
+
+Rig read_rig(const std::filesystem::path& file, Report& report) {
+    const auto bytes = read_file(file, {}, kMostBytes);
+    Rig rig = parse_rig({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, report);
+    rig.source = file.filename().string() + ": ";
+    return rig;
+}
+
+std::optional<Rig> take_rig_from_extras(Scene& scene, Report& report) {
+    if (scene.extras.find(kRigInExtras) == std::string::npos) return std::nullopt;
+    const std::string place = "scene.extras." + std::string(kRigInExtras);
+    try {
+        auto extras = parse_json_text<Json>(scene.extras, report);
+        if (!extras.is_object() || !extras.contains(kRigInExtras)) return std::nullopt;
+        Rig rig = parse_rig(extras[kRigInExtras].dump(), report);
+        rig.source = place + '.';
+        extras.erase(kRigInExtras);
+        scene.extras = extras.empty() ? std::string() : extras.dump();
+        return rig;
+    } catch (const Failure& failure) {
+        report.warn("rig left out: " + failure.error.message,
+                    failure.error.place.empty() ? place : place + '.' + failure.error.place);
+        return std::nullopt;
+    }
+}
+
+}  // namespace bendy::converter

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <bendy/converter/scene.h>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace bendy::converter {
+
+// Evaluates a Scene at a time, in double precision and by glTF's rules alone. It shares no code with the runtime except
+// trig.h, so that the two can be compared. Uses no libm function but the square root, so that results are the same
+// everywhere.
+
+struct EvaluatedPose {
+    std::vector<glm::dmat4> joints;                  ///< joint to model space
+    std::vector<std::vector<double>> morph_weights;  ///< per mesh
+};
+
+/// The rest pose, with the targets' rest weights.
+void evaluate_rest(const Scene& scene, EvaluatedPose& pose);
+
+/// A clip at a time on its time line, in seconds; tracks hold their first and last key. Properties that are not
+/// animated rest.
+void evaluate(const Scene& scene, const Clip& clip, double seconds, EvaluatedPose& pose);
+
+/// One track's value at a time: `components` numbers. Linear rotations follow the shortest great arc, cubic ones are
+/// normalised.
+void evaluate_track(const Track& track, double seconds, std::vector<double>& value);
+
+/// A mesh's vertices in model space: displaced by its targets, then moved by its bones, or by its joint if it is rigid.
+/// \param morph_weights  one per target, or empty: not displaced
+std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const std::vector<double>& morph_weights,
+                                          const std::vector<glm::dmat4>& joints);
+
+/// Poses for estimates: the rest pose, then every clip at evenly spaced times from its first key to its last.
+/// \param most          limit for all clips together; large skeletons get fewer poses, at most about 33 MB
+/// \param most_of_clip  limit per clip
+std::vector<EvaluatedPose> sample_poses(const Scene& scene, std::size_t most,
+                                        std::size_t most_of_clip = std::numeric_limits<std::size_t>::max());
+
+/// Distance from a joint, as a share of the character's height, at which its rotation and scale are measured where no
+/// skin shows them.
+constexpr double kJointReach = 0.03;
+
+/// Metres: the height of the character's skin at rest, or its largest side if it is flat. Without vertices, the size of
+/// the skeleton: of its joints' origins at rest or, if these coincide, over its clips; 1 if they always coincide.
+double height_at_rest(const Scene& scene);
+
+}  // namespace bendy::converter

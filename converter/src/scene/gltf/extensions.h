@@ -1,0 +1,23 @@
+#pragma once
+
+#include "check_json.h"
+
+#include <bendy/converter/report.h>
+
+#include <string_view>
+
+namespace bendy::converter::gltf {
+
+/// A node that draws its mesh several times: kept as data, or made joints (GltfOptions::instances).
+inline constexpr std::string_view kInstancing = "EXT_mesh_gpu_instancing";
+
+/// Whether a file that requires this extension can be imported: it is decoded, or cannot affect shape or motion.
+bool is_known_extension(std::string_view name);
+
+/// Whether a material extension maps to fields of Material; others are kept there as JSON.
+bool is_interpreted_material_extension(std::string_view name);
+
+/// Warns of all extensions in the file that the Scene cannot hold: by name, each with its count.
+void report_extensions(const Json& root, Report& report);
+
+}  // namespace bendy::converter::gltf

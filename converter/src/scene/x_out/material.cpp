@@ -1,0 +1,144 @@
+#include "parts.h"
+#include "scene/failure.h"
+#include "scene/source/image_bytes.h"
+#include "scene/x/conventions.h"
+#include "scene/x/parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <unordered_set>
+#include <utility>
+
+namespace bendy::converter::x_out {
+namespace {
+
+std::string ending_of(const Image& image) {
+    const std::string media_type = image.media_type.empty() ? media_type_of(image.bytes) : image.media_type;
+    const auto kinds = image_kinds();
+    const auto found =
+        std::find_if(kinds.begin(), kinds.end(), [&](const ImageKind& kind) { return kind.media_type == media_type; });
+    if (!media_type.empty() && found != kinds.end()) return std::string(found->suffix);
+    return may_be_tga(image.bytes) ? ".tga" : ".bin";
+}
+
+/// Replaces backslashes: strings of X-files have no escapes, and readers interpret a backslash differently.
+std::string file_name(std::string name) {
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '"' || c == '\\' || static_cast<unsigned char>(c) < 0x20; },
+        '_');
+    return name;
+}
+
+/// Decodes a URI's percent escapes.
+std::string decode_uri(const std::string& uri) {
+    return file_name(x::decode_text(uri));
+}
+
+bool is_transformed(const TextureUse& use) {
+    const TextureUse usual;
+    return use.offset != usual.offset || use.rotation != usual.rotation || use.scale != usual.scale;
+}
+
+bool is_same(const TextureUse& a, const TextureUse& b) {
+    return a.texture == b.texture && a.coords == b.coords && a.offset == b.offset && a.rotation == b.rotation &&
+           a.scale == b.scale;
+}
+
+class MaterialExporter {
+public:
+    MaterialExporter(const Scene& scene, const std::string& image_stem, Text& text, std::vector<XAsset::File>& images,
+                     Report& report)
+        : scene_(scene), image_stem_(image_stem), text_(text), images_(images), report_(report) {}
+
+    void write(const Material& material, const std::string& identifier, const std::string& place) {
+        report_losses(material, place);
+        text_.open("Material", identifier);
+        line(x::to_display(material.base_colour));
+        text_.begin_line();
+        text_.add(x::power_of(material.roughness)).add(";");
+        text_.end_line();
+        glm::vec3 specular(0.0f);
+        for (int i = 0; i < 3; ++i)
+            specular[i] = x::kDielectric + material.metallic * (material.base_colour[i] - x::kDielectric);
+        line(material.roughness < 1.0f ? x::to_display(specular) : glm::vec3(0.0f));
+        line(x::to_display(material.emissive));
+        if (material.base_colour_texture.texture != kNone) write_texture(material.base_colour_texture.texture, place);
+        write_name(identifier, material.name, text_);
+        text_.close();
+    }
+
+private:
+    template <class Vector>
+    void line(const Vector& vector) {
+        text_.begin_line();
+        text_.add_vector(vector).add(";");
+        text_.end_line();
+    }
+
+    void write_texture(std::uint32_t number, const std::string& place) {
+        const Texture& texture = scene_.textures[number];
+        if (texture.images.size() > 1) report_.warn("further image of a texture left out", place);
+        if (texture.wrap_s != Wrap::repeat || texture.wrap_t != Wrap::repeat ||
+            texture.mag_filter != Filter::unspecified || texture.min_filter != Filter::unspecified)
+            report_.warn("how a texture is sampled is left out", place);
+        if (!texture.extras.empty() || !texture.more.empty())
+            report_.warn("extras of a texture left out: X-files have no place for it", place);
+        if (texture.images.empty()) return;
+        text_.open("TextureFilename");
+        text_.line('"' + file_of(texture.images.front()) + "\";");
+        text_.close();
+    }
+
+    std::string file_of(std::uint32_t number) {
+        const Image& image = scene_.images[number];
+        if (image.bytes.empty()) return decode_uri(image.uri);
+        std::string name = file_name(image_stem_) + '_' + std::to_string(number) + ending_of(image);
+        if (is_written_.insert(number).second) images_.push_back({name, image.bytes});
+        return name;
+    }
+
+    void report_losses(const Material& material, const std::string& place) {
+        const auto lose = [&](bool is_lost, const char* what) {
+            if (is_lost) report_.warn(std::string(what) + " left out: X-files have no place for it", place);
+        };
+        if (material.metallic != 0.0f || material.roughness != 1.0f) {
+            report_.warn("metallic and roughness are written as specular colour and power, which only resemble them",
+                         place);
+        }
+        lose(material.metallic_roughness_texture.texture != kNone, "metallic-roughness texture");
+        lose(material.normal_texture.texture != kNone, "normal texture");
+        lose(material.occlusion_texture.texture != kNone, "occlusion texture");
+        const TextureUse& colour = material.base_colour_texture;
+        const TextureUse& glow = material.emissive_texture;
+        lose(glow.texture != kNone && !is_same(glow, colour), "emissive texture");
+        lose(glow.texture == kNone && colour.texture != kNone && material.emissive != glm::vec3(0.0f),
+             "that the texture has no part in a material's own light");
+        lose(colour.texture != kNone && colour.coords != 0, "the choice of a further set of texture coordinates");
+        lose(colour.texture != kNone && is_transformed(colour), "texture transform");
+        lose(material.alpha_mode == AlphaMode::mask, "alpha mask");
+        lose(material.double_sided, "that a material has two sides");
+        lose(material.unlit, "that a material is unlit");
+        lose(!material.extensions.empty(), "extensions of a material");
+        lose(!material.extras.empty() || !material.more.empty(), "extras of a material");
+    }
+
+    const Scene& scene_;
+    const std::string& image_stem_;
+    Text& text_;
+    std::vector<XAsset::File>& images_;
+    Report& report_;
+    std::unordered_set<std::uint32_t> is_written_;  ///< images already written
+};
+
+}  // namespace
+
+void write_materials(const Scene& scene, const Names& names, const std::string& image_stem, Text& text,
+                     std::vector<XAsset::File>& images, Report& report) {
+    MaterialExporter exporter(scene, image_stem, text, images, report);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        exporter.write(scene.materials[i], names.materials[i], at("materials", i));
+}
+
+}  // namespace bendy::converter::x_out

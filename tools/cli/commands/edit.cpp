@@ -1,0 +1,251 @@
+#include "choices.h"
+#include "commands/commands.h"
+#include "commands/model_options.h"
+#include "files/input.h"
+#include "files/output.h"
+#include "reports/messages.h"
+
+#include <bendy/edit/edit.h>
+#include <bendy/format/diagnostics.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace bendy::tools {
+namespace {
+
+using Buffer = std::vector<std::byte>;
+
+struct EditArguments {
+    std::filesystem::path input;
+    std::filesystem::path output;
+    std::vector<std::string> strips, renames, joint_renames, extracts;
+    std::vector<std::filesystem::path> joint_tables, merges;
+    std::filesystem::path root;
+    std::string same_name = "error";
+    bool in_place = false;
+    bool quiet = false;
+};
+
+/// One change; successive renames of the same kind are one change.
+using Step = std::function<edit::Edited(Bytes, edit::Log&)>;
+
+std::pair<edit::Named, std::string> split_rename(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos) throw CLI::ValidationError("--rename", '"' + text + "\" is not KIND:OLD=NEW");
+    const auto kind = edit::parse_named(std::string_view(text).substr(0, colon));
+    if (!kind) throw CLI::ValidationError("--rename", kind.error().message);
+    return {*kind, text.substr(colon + 1)};
+}
+
+/// {"old": "new", ...}
+edit::Rename read_table(const std::filesystem::path& path) {
+    const InputBytes file = open_file(path);
+    edit::Rename rename;
+    rename.all_must_match = false;
+    const auto table = nlohmann::ordered_json::parse(as_text(file.bytes()), nullptr, false);
+    if (table.is_discarded()) fail(path, "is not JSON");
+    if (!table.is_object()) fail(path, "must be a JSON object, from old names to new ones");
+    for (const auto& [before, after] : table.items()) {
+        if (!after.is_string()) fail(path, "\"" + printable(before) + "\" has no text as its new name");
+        rename.names.emplace_back(before, after.get<std::string>());
+    }
+    return rename;
+}
+
+/// A bendy file, or a file of another kind converted to one.
+Buffer read_other(const std::filesystem::path& path, const std::filesystem::path& root, Outputs& outputs) {
+    converter::Report unheard;
+    const auto file = read_character(path, root, unheard);
+    for (const converter::SourceFile& source : unheard.sources()) outputs.reads(source.file);
+    if (!file) fail(file_of(file.error(), path), describe(file.error()));
+    return {file->bytes().begin(), file->bytes().end()};
+}
+
+/// The steps in the order of the command line.
+class Steps {
+public:
+    /// \param outputs  is told what the steps read
+    Steps(const EditArguments& arguments, Outputs& outputs) : arguments_(arguments), outputs_(outputs) {}
+
+    void add(const std::string& option) {
+        const std::size_t number = seen_[option]++;
+        if (option == "--strip") return add_strip(arguments_.strips[number]);
+        if (option == "--rename") return add_rename(arguments_.renames[number]);
+        if (option == "--rename-joint")
+            return add_pair("--rename-joint", edit::Named::joint, arguments_.joint_renames[number]);
+        if (option == "--rename-joints") return add_table(arguments_.joint_tables[number]);
+        if (option == "--merge") return add_merge(arguments_.merges[number]);
+        if (option == "--extract") return add_extract(arguments_.extracts[number]);
+    }
+    std::vector<Step> take() {
+        close_rename();
+        return std::move(steps_);
+    }
+
+private:
+    void add_strip(const std::string& text) {
+        close_rename();
+        const auto what = edit::parse_strip(text);
+        if (!what) throw CLI::ValidationError("--strip", what.error().message);
+        steps_.emplace_back([what = *what](Bytes file, edit::Log& log) { return edit::strip(file, what, log); });
+    }
+
+    void add_rename(const std::string& text) {
+        const auto [kind, pair] = split_rename(text);
+        add_pair("--rename", kind, pair);
+    }
+
+    void add_pair(const char* option, edit::Named kind, const std::string& text) {
+        const auto pair = edit::parse_pair(text);
+        if (!pair) throw CLI::ValidationError(option, pair.error().message);
+        if (!rename_.names.empty() && rename_.kind != kind) close_rename();
+        rename_.kind = kind;
+        rename_.names.push_back(*pair);
+    }
+
+    void add_table(const std::filesystem::path& path) {
+        close_rename();
+        outputs_.reads(path);
+        steps_.emplace_back([path](Bytes file, edit::Log& log) { return edit::rename(file, read_table(path), log); });
+    }
+
+    void close_rename() {
+        if (rename_.names.empty()) return;
+        steps_.emplace_back(
+            [rename = std::move(rename_)](Bytes file, edit::Log& log) { return edit::rename(file, rename, log); });
+        rename_ = {};
+    }
+
+    void add_merge(const std::filesystem::path& path) {
+        close_rename();
+        const auto same_name = edit::parse_same_name(arguments_.same_name);
+        if (!same_name) throw CLI::ValidationError("--same-name", same_name.error().message);
+        outputs_.reads(path);
+        steps_.emplace_back([path, root = arguments_.root, same_name = *same_name, &outputs = outputs_](
+                                Bytes file, edit::Log& log) -> edit::Edited {
+            const Buffer other = read_other(path, root, outputs);
+            const auto first = log.warnings.size();
+            auto merged = edit::merge_clips(file, other, same_name, log);
+            for (std::size_t k = first; k < log.warnings.size(); ++k)
+                log.warnings[k] = path.string() + ": " + log.warnings[k];
+            if (merged) return merged;
+            const bool is_clash = merged.error().message.ends_with("already");
+            return edit::Problem{"merging " + path.string() + ": " + merged.error().message +
+                                 (is_clash ? "; --same-name replace or --same-name number says what to do" : "")};
+        });
+    }
+
+    void add_extract(const std::string& joint) {
+        close_rename();
+        steps_.emplace_back([joint](Bytes file, edit::Log& log) { return edit::extract(file, joint, log); });
+    }
+
+    const EditArguments& arguments_;
+    Outputs& outputs_;
+    std::map<std::string, std::size_t> seen_;
+    edit::Rename rename_;
+    std::vector<Step> steps_;
+};
+
+void print_change(const EditArguments& arguments, std::uint64_t before, std::uint64_t after) {
+    std::ostream& out = print_size(arguments.output, after);
+    if (after != before) {
+        out << ", " << grouped(after < before ? before - after : after - before)
+            << (after < before ? " less" : " more");
+    }
+    out << '\n';
+}
+
+/// Converts a file of another kind; --in-place replaces only bendy files.
+CharacterFile open_edited(const EditArguments& arguments, Outputs& outputs) {
+    if (arguments.in_place) return CharacterFile(open_bendy_file(arguments.input));
+    return open_character(arguments.input, arguments.root, outputs);
+}
+
+/// \param outputs  is told what is read besides the file itself
+void run(const EditArguments& arguments, const std::vector<Step>& steps, Outputs& outputs) {
+    if (!arguments.in_place) outputs.reads(arguments.input);
+    outputs.writes(arguments.output, NamedBy::user, Content::binary);
+    check_suffix({"edit", "--output", {".bendy"}}, arguments.input, arguments.output);
+    require_folder_of(arguments.output);
+    CharacterFile file = open_edited(arguments, outputs);
+    const std::uint64_t size_before = file.bytes().size();
+    Buffer bytes;
+    edit::Log log;
+    for (const Step& step : steps) {
+        auto edited = step(bytes.empty() ? file.bytes() : Bytes(bytes), log);
+        if (!edited) fail(arguments.input, printable(edited.error().message));
+        bytes = *std::move(edited);
+    }
+    file = CharacterFile(InputBytes());  // the output may be the input, and Windows cannot replace a mapped file
+    outputs.write(arguments.output, bytes);
+    for (const std::string& warning : log.warnings) warn(arguments.input, printable(warning));
+    if (arguments.quiet) return;
+    print_change(arguments, size_before, bytes.size());
+    for (const std::string& line : log.done) summary_stream(arguments.output) << "  " << printable(line) << '\n';
+}
+
+}  // namespace
+
+void add_edit(CLI::App& program) {
+    const auto arguments = std::make_shared<EditArguments>();
+    CLI::App* command = program.add_subcommand("edit", "Change a bendy file without converting it again");
+    add_character(*command, arguments->input)->required();
+    command->add_option("-o,--output", arguments->output, "where to write; never FILE itself");
+    command->add_flag("-i,--in-place", arguments->in_place,
+                      "replace FILE, a bendy file, with the result; use instead of --output");
+    const auto add = [&](const char* name, auto& values, const std::string& help) {
+        command->add_option(name, values, help)->allow_extra_args(false);
+    };
+    add("--strip", arguments->strips,
+        "take out all " + edit::strip_words() +
+            "; or one: texture:NAME, clip:Run, mesh:Hat, target:Smile, chain:Arm, constraint:JOINT, chunk:ID");
+    add("--rename-joint", arguments->joint_renames, "OLD=NEW; * matches anything: 'mixamorig:*=*' removes a prefix");
+    add("--rename-joints", arguments->joint_tables, R"(a JSON file, {"old": "new", ...})");
+    add("--rename", arguments->renames,
+        "KIND:OLD=NEW; KIND is joint, clip, chain, mesh, target, material, texture or object");
+    add("--merge", arguments->merges,
+        "add the clips of another file (bendy or glTF); tracks go to the joints of the same name");
+    command
+        ->add_option("--same-name", arguments->same_name,
+                     "what --merge does if a clip of that name exists: error; replace the existing clip; or number the "
+                     "new one, as in Run.001")
+        ->check(one_of({"error", "replace", "number"}))
+        ->capture_default_str();
+    add_root(*command, arguments->root);
+    add("--extract", arguments->extracts,
+        "make a character of this joint and its descendants; it keeps its place in every clip");
+    command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
+    command->footer(
+        "Names may have * and ?. A number may stand for a name: 0, or #0 beside something called 0, which is =0 then.\n"
+        "Options are applied in their order; renames of one kind that follow one another happen at once. What is not\n"
+        "touched keeps its bytes, unknown chunks too.\n"
+        "Example: bendy edit fox.bendy -o out.bendy --strip textures --merge run.glb --rename clip:mixamo.com=Run");
+    command->callback([arguments, command] {
+        if (arguments->output.empty() == !arguments->in_place)
+            throw CLI::ValidationError("--output", "or --in-place, one of the two, says where to write");
+        if (arguments->in_place) arguments->output = arguments->input;
+        if (arguments->in_place && is_dash(arguments->input))
+            throw CLI::ValidationError("--in-place", "goes with a file, not with standard input: -o - writes on");
+        Outputs outputs;
+        Steps steps(*arguments, outputs);
+        for (const CLI::Option* option : command->parse_order()) steps.add(option->get_name());
+        const auto taken = steps.take();
+        if (taken.empty())
+            throw CLI::ValidationError("edit", "there is nothing to do: --strip, --rename-joint, --merge, --extract");
+        run(*arguments, taken, outputs);
+    });
+}
+
+}  // namespace bendy::tools

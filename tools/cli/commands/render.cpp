@@ -1,0 +1,305 @@
+#include "commands/commands.h"
+#include "reports/messages.h"
+
+#ifdef BENDY_HAS_VIEWER
+
+#include "commands/model_options.h"
+#include "files/input.h"
+#include "files/output.h"
+#include "files/progress.h"
+
+#include <bendy/runtime.h>
+#include <bendy/viewer/picture.h>
+#include <bendy/viewer/render.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace bendy::tools {
+namespace {
+
+struct RenderArguments {
+    std::filesystem::path file;
+    std::filesystem::path root;
+    std::filesystem::path output;
+    std::string clip;
+    bool has_clip = false;
+    float time = 0.0f;
+    bool has_time = false;
+    std::string size;
+    std::string camera;
+    std::string background;
+    std::string format;   // empty: chosen by the output's name
+    unsigned frames = 0;  // 0: not given
+    bool verbose = false;
+    ReachRequest reach;
+    viewer::RenderOptions render;
+};
+
+void parse_size(const std::string& text, viewer::RenderOptions& options) {
+    const char* const end = text.data() + text.size();
+    const auto [cross, bad_width] = std::from_chars(text.data(), end, options.width);
+    const bool has_cross = bad_width == std::errc() && cross != end && *cross == 'x';
+    const auto [stop, bad_height] = std::from_chars(has_cross ? cross + 1 : end, end, options.height);
+    const auto fits = [](std::uint32_t side) { return side >= 1 && side <= viewer::kMostPixels; };
+    if (!has_cross || bad_height != std::errc() || stop != end || !fits(options.width) || !fits(options.height))
+        throw CLI::ValidationError(
+            "--size", "must be WIDTHxHEIGHT in pixels, 1 to " + std::to_string(viewer::kMostPixels) + " each");
+}
+
+void parse_camera(const std::string& text, viewer::CameraOptions& camera) {
+    const std::vector<float> numbers = read_numbers(text);
+    if (numbers.size() < 2 || numbers.size() > 3 || (numbers.size() == 3 && numbers[2] <= 0.0f))
+        throw CLI::ValidationError("--camera",
+                                   "must be YAW,PITCH or YAW,PITCH,DISTANCE: degrees, and a factor above 0");
+    constexpr float kDegree = 3.14159265f / 180.0f;
+    camera.yaw = numbers[0] * kDegree;
+    camera.pitch = numbers[1] * kDegree;
+    if (numbers.size() == 3) camera.distance = numbers[2];
+}
+
+float linear(unsigned srgb) {
+    const float value = static_cast<float>(srgb) / 255.0f;
+    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+}
+
+void parse_background(const std::string& text, glm::vec4& background) {
+    if (text == "transparent") {
+        background = glm::vec4(0.0f);
+        return;
+    }
+    struct Named {
+        std::string_view name;
+        unsigned colour;
+    };
+    constexpr std::array<Named, 3> kNamed{{{"white", 0xffffff}, {"black", 0}, {"grey", 0x808080}}};
+    for (const Named& named : kNamed) {
+        if (text != named.name) continue;
+        background = {linear(named.colour >> 16u), linear(named.colour >> 8u & 255u), linear(named.colour & 255u),
+                      1.0f};
+        return;
+    }
+    unsigned colour = 0;
+    const std::size_t hash = text.starts_with('#') ? 1 : 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, problem] = std::from_chars(text.data() + hash, end, colour, 16);
+    if (text.size() - hash != 6 || problem != std::errc() || stop != end)
+        throw CLI::ValidationError("--background", "must be RRGGBB, white, black, grey or transparent");
+    background = {linear(colour >> 16u), linear(colour >> 8u & 255u), linear(colour & 255u), 1.0f};
+}
+
+/// The times of the frames in the clip. A repeating clip does not show its end, which equals its start.
+std::vector<float> frame_times(const Clip& clip, unsigned frames, bool repeats) {
+    std::vector<float> times;
+    const float steps = static_cast<float>(repeats ? frames : std::max(1u, frames - 1));
+    for (unsigned k = 0; k < frames; ++k)
+        times.push_back(clip.start + (clip.end - clip.start) * static_cast<float>(k) / steps);
+    return times;
+}
+
+std::uint32_t sheet_columns(unsigned frames) {
+    return static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(frames))));
+}
+
+/// A sheet is a single picture, assembled in memory.
+void check_sheet(const RenderArguments& arguments) {
+    constexpr std::uint64_t kMostSheetPixels = std::uint64_t{viewer::kMostPixels} * viewer::kMostPixels;
+    const std::uint64_t columns = sheet_columns(arguments.frames);
+    if (columns * columns * arguments.render.width * arguments.render.height > kMostSheetPixels)
+        throw CLI::ValidationError("--frames", "so many pictures of this --size are too large for one");
+}
+
+/// Draws poses whose chains have reached for their targets, and records how near they came.
+class ReachingMaker {
+public:
+    ReachingMaker(const RenderArguments& arguments, const Model& model)
+        : goals_(find_goals(arguments.reach, arguments.file, model)),
+          maker_(model, options_of(arguments),
+                 [&](const std::string& what) { warn(arguments.file, printable(what)); }) {}
+
+    viewer::Picture draw(float time) {
+        viewer::Picture picture = maker_.draw(time);
+        tally_.add(goals_, results_, time);
+        return picture;
+    }
+    viewer::Picture draw_nothing() { return maker_.draw_nothing(); }
+
+    [[nodiscard]] const std::string& context() const { return maker_.context(); }
+    void print_tally(const std::filesystem::path& file, const Model& model) const { tally_.print(file, model, goals_); }
+
+private:
+    viewer::RenderOptions options_of(const RenderArguments& arguments) {
+        viewer::RenderOptions options = arguments.render;
+        options.adjust = [this, &request = arguments.reach](Pose& pose) {
+            results_ = reach_goals(request, goals_, pose);
+        };
+        for (const ReachGoal& goal : goals_) options.targets.push_back({goal.chain, goal.target.position});
+        return options;
+    }
+
+    std::vector<ReachGoal> goals_;
+    std::vector<Reached> results_;  // in the last pose
+    ReachTally tally_;
+    viewer::PictureMaker maker_;
+};
+
+std::vector<std::byte> draw_sheet(ReachingMaker& maker, const RenderArguments& arguments) {
+    ProgressBar bar("drawing");
+    std::vector<viewer::Picture> pictures;
+    const Clip& clip = *arguments.render.clip;
+    for (const float time : frame_times(clip, arguments.frames, clip.loop)) {
+        pictures.push_back(maker.draw(time));
+        bar.show(pictures.size(), arguments.frames);
+    }
+    return viewer::encode_png(viewer::contact_sheet(pictures, sheet_columns(arguments.frames), maker.draw_nothing()));
+}
+
+std::vector<std::byte> draw_animation(ReachingMaker& maker, const RenderArguments& arguments, bool is_gif) {
+    const viewer::RenderOptions& render = arguments.render;
+    const auto file =
+        is_gif ? viewer::make_gif(render.width, render.height) : viewer::make_webp(render.width, render.height);
+    const double length = static_cast<double>(render.clip->end) - static_cast<double>(render.clip->start);
+    ProgressBar bar("drawing");
+    unsigned done = 0;
+    for (const float time : frame_times(*render.clip, arguments.frames, true)) {
+        file->add(maker.draw(time), length * done / arguments.frames);
+        bar.show(++done, arguments.frames);
+    }
+    return file->finish(length);
+}
+
+/// The number of frames of an animation if it was not given: 25 per second.
+unsigned default_frames(const Clip& clip) {
+    constexpr double kRate = 25.0;
+    constexpr double kMost = 1000.0;
+    const double length = static_cast<double>(clip.end) - static_cast<double>(clip.start);
+    return static_cast<unsigned>(std::clamp(std::round(kRate * length), 1.0, kMost));
+}
+
+std::vector<std::byte> draw_all(RenderArguments& arguments, const Model& model, const std::string& format) {
+    const bool is_animation = format != "png";
+    viewer::RenderOptions& render = arguments.render;
+    if (arguments.has_clip) render.clip = &find_clip(arguments.clip, arguments.file, model);
+    if (model.clips().empty() && (is_animation || arguments.frames != 0)) {
+        fail(arguments.file, std::string("there is no clip for ") + (is_animation ? "an animation" : "--frames") +
+                                 "; OUT.png without --frames shows the rest pose");
+    }
+    if (render.clip == nullptr && (is_animation || arguments.frames > 1)) {
+        render.clip = model.clips().data();
+    }
+    if (is_animation && arguments.frames == 0) arguments.frames = default_frames(*render.clip);
+    warn_without_levels(arguments.file, model, render.lod);
+    ReachingMaker maker(arguments, model);
+    if (arguments.verbose) std::cerr << "bendy: drawing with " << printable(maker.context()) << '\n';
+    const float start = render.clip == nullptr ? 0.0f : render.clip->start;
+    std::vector<std::byte> bytes = is_animation ? draw_animation(maker, arguments, format == "gif")
+                                   : arguments.frames > 1
+                                       ? draw_sheet(maker, arguments)
+                                       : viewer::encode_png(maker.draw(arguments.has_time ? arguments.time : start));
+    maker.print_tally(arguments.file, model);
+    return bytes;
+}
+
+/// The folders of the images that the file links to, which are drawn.
+void note_inputs(const RenderArguments& arguments, const Model& model, Outputs& outputs) {
+    for (const Texture& texture : model.textures()) {
+        for (const ImageView& image : texture.images) {
+            if (const auto file = arguments.render.folders.find(image.uri)) outputs.reads(*file);
+        }
+    }
+}
+
+void run(RenderArguments arguments) {
+    Outputs outputs;
+    outputs.reads(arguments.file);
+    outputs.writes(arguments.output, NamedBy::user, Content::binary);
+    check_suffix({"render", "--output", {".png", ".gif", ".webp"}, false}, arguments.file, arguments.output,
+                 arguments.format);
+    const std::string format = format_of(arguments.format, arguments.output, "png");
+    if (arguments.frames > 1 && arguments.has_time) throw CLI::ValidationError("--time", "does not go with --frames");
+    if (arguments.frames > 1 || format != "png") {
+        arguments.render.width = 320;
+        arguments.render.height = 240;
+    }
+    if (!arguments.size.empty()) parse_size(arguments.size, arguments.render);
+    if (format == "png") check_sheet(arguments);
+    if (!arguments.camera.empty()) parse_camera(arguments.camera, arguments.render.camera);
+    if (!arguments.background.empty()) parse_background(arguments.background, arguments.render.draw.background);
+    arguments.render.draw.targets = arguments.render.draw.constraints;
+    require_folder_of(arguments.output);
+    const CharacterFile file = open_character(arguments.file, arguments.root, outputs, Storage::copied);
+    const Model model = read_model(arguments.file, file.bytes());
+    arguments.render.folders = folders_of(arguments.file, arguments.root);
+    note_inputs(arguments, model, outputs);
+    try {
+        const std::vector<std::byte> bytes = draw_all(arguments, model, format);
+        outputs.write(arguments.output, bytes);
+    } catch (const viewer::ViewerError& problem) {
+        fail(arguments.file, printable(problem.what()));
+    }
+}
+
+}  // namespace
+
+void add_render(CLI::App& program) {
+    const auto arguments = std::make_shared<RenderArguments>();
+    CLI::App* command = program.add_subcommand("render", "Render a picture or an animation, without a display");
+    add_character(*command, arguments->file)->required();
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "OUT.png; or OUT.gif, OUT.webp: an animation; - is standard output")
+        ->required();
+    add_format(*command, arguments->format, {"png", "gif", "webp"});
+    add_root(*command, arguments->root);
+    CLI::Option* clip = add_clip(*command, arguments->clip);
+    CLI::Option* time = command->add_option("--time", arguments->time, "seconds on the clip's time line")->needs(clip);
+    add_reach(*command, arguments->reach);
+    command
+        ->add_option(
+            "--frames", arguments->frames,
+            "number of pictures, spread over the clip: as a sheet in OUT.png, or as the frames of an animation")
+        ->check(CLI::Range(1, 1000));
+    command->add_option("--size", arguments->size, "WIDTHxHEIGHT of a picture, pixels; 1024x768, of several 320x240");
+    command->add_option("--camera", arguments->camera,
+                        "YAW,PITCH[,DISTANCE]: degrees round the character, 0,0 its front; and a factor; 34,11 fitted");
+    command->add_flag("--bones", arguments->render.draw.bones, "draw the skeleton");
+    command->add_flag("--axes", arguments->render.draw.axes, "draw the joints' axes");
+    command->add_flag("--constraints", arguments->render.draw.constraints,
+                      "draw the joints' limits and the IK targets");
+    command->add_flag("--wireframe", arguments->render.draw.wireframe, "draw the edges instead of the surface");
+    add_lod(*command, arguments->render.lod);
+    command->add_option("--background", arguments->background, "RRGGBB, white, black, grey or transparent");
+    command->add_flag("-v,--verbose", arguments->verbose, "print the OpenGL driver in use");
+    command->footer(
+        "A file without a surface is drawn as its skeleton. Targets of --reach are drawn, each with a line from the "
+        "tip that should reach it.\nExample: bendy render fox.bendy --clip Run --time 0.35 --bones -o run.png\n        "
+        " bendy render robot.bendy --reach LeftArm=0.3,1.2,0.4 -o reach.png");
+    command->callback([arguments, clip, time] {
+        arguments->has_clip = clip->count() != 0;
+        arguments->has_time = time->count() != 0;
+        if (!std::isfinite(arguments->time)) throw CLI::ValidationError("--time", "must be a finite number");
+        run(*arguments);
+    });
+}
+
+}  // namespace bendy::tools
+
+#else
+
+namespace bendy::tools {
+
+void add_render(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("render", "Make a picture (this bendy was built without it)");
+    command->allow_extras();
+    command->callback([] { fail("render", "this bendy was built without the viewer (BENDY_VIEWER=OFF)"); });
+}
+
+}  // namespace bendy::tools
+
+#endif

@@ -1,0 +1,188 @@
+#include "convert/batch.h"
+
+#include "files/output.h"
+#include "reports/json.h"
+#include "reports/messages.h"
+
+#include <bendy/converter/source_format.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/file.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <set>
+#include <system_error>
+#include <utility>
+
+namespace bendy::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Returns one path for one file, however the path was written.
+fs::path plain(const fs::path& path) {
+    std::error_code unknown;
+    fs::path canonical = fs::weakly_canonical(path, unknown);
+    return unknown ? fs::absolute(path).lexically_normal() : canonical;
+}
+
+class Planner {
+public:
+    explicit Planner(fs::path folder) : folder_(std::move(folder)) {}
+
+    void add(const fs::path& input) {
+        std::error_code ignored;
+        if (fs::is_directory(input, ignored)) {
+            add_folder(input);
+        } else {
+            add_file(input, folder_.empty() ? input.parent_path() : folder_, input.filename());
+        }
+    }
+
+    BatchPlan finish() {
+        std::set<fs::path> folders;
+        for (const auto& [key, file] : files_) {
+            if (const std::string problem = outputs_.claim(file.output, NamedBy::user); !problem.empty())
+                plan_.clashes.push_back({file.input, file.output, problem});
+            folders.insert(file.folder);
+            plan_.files.push_back(file);
+        }
+        for (const fs::path& folder : folders) {
+            const fs::path record = BatchRecord::file_in(folder);
+            if (const std::string problem = outputs_.claim(record, NamedBy::user); !problem.empty())
+                plan_.clashes.push_back({{}, record, problem});
+        }
+        return std::move(plan_);
+    }
+
+    void reads(const fs::path& file) { outputs_.reads(file); }
+
+private:
+    void add_folder(const fs::path& folder) {
+        const std::size_t before = files_.size();
+        std::error_code error;
+        fs::recursive_directory_iterator entry(folder, error);
+        for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+            std::error_code ignored;
+            if (converter::has_readable_suffix(entry->path()) && !entry->is_directory(ignored))
+                add_file(entry->path(), folder_.empty() ? folder : folder_, entry->path().lexically_relative(folder));
+        }
+        if (error) {
+            plan_.unread.push_back({folder, {}, "cannot be read to its end: " + error.message()});
+        } else if (files_.size() == before) {
+            warn(folder, "has no file to convert (" + converter::list_readable_suffixes() + ')');
+        }
+    }
+
+    void add_file(const fs::path& input, const fs::path& folder, fs::path place) {
+        place.replace_extension(".bendy");
+        const fs::path output = folder / place;
+        const auto [earlier, is_new] = files_.try_emplace(plain(output), BatchFile{input, folder, place, output});
+        if (!is_new && plain(earlier->second.input) != plain(input)) {
+            plan_.clashes.push_back({input, output,
+                                     "both " + escaped(earlier->second.input.string()) + " and " +
+                                         escaped(input.string()) + " would be written there"});
+        }
+        outputs_.reads(input);
+    }
+
+    fs::path folder_;
+    std::map<fs::path, BatchFile> files_;  // by normalised output
+    Outputs outputs_;
+    BatchPlan plan_;
+};
+
+using converter::FileStamp;
+using converter::SourceFile;
+
+/// Returns the same path for a file however its folder was written. Does not follow a link to the file itself: related
+/// files are looked for beside the link.
+fs::path in_plain_folder(const fs::path& file) {
+    const fs::path whole = fs::absolute(file);
+    std::error_code unknown;
+    return fs::weakly_canonical(whole.parent_path(), unknown) / whole.filename();
+}
+
+nlohmann::json as_json(const FileStamp& stamp) {
+    return stamp.is_there ? nlohmann::json::array({stamp.size, stamp.modified}) : nlohmann::json();
+}
+
+FileStamp as_stamp(const nlohmann::json& numbers) {
+    if (numbers.is_null()) return {};
+    return {true, numbers.at(0).get<std::uint64_t>(), numbers.at(1).get<std::int64_t>()};
+}
+
+}  // namespace
+
+BatchPlan plan_batch(const std::vector<fs::path>& inputs, const fs::path& folder, const fs::path& rig) {
+    Planner planner(folder);
+    for (const fs::path& input : inputs) planner.add(input);
+    if (!rig.empty()) planner.reads(rig);
+    return planner.finish();
+}
+
+BatchRecord::BatchRecord(const fs::path& folder) : folder_(folder), file_(file_in(folder)) {
+    try {
+        read();
+    } catch (const nlohmann::json::exception&) {
+        entries_.clear();  // damaged, or of another version: everything is converted again
+    }
+}
+
+fs::path BatchRecord::file_in(const fs::path& folder) {
+    return folder / ".bendy_batch.json";
+}
+
+bool BatchRecord::knows(const BatchFile& file) const {
+    return entries_.contains(file.place.generic_string());
+}
+
+void BatchRecord::read() {
+    const Result<MappedFile> mapped = MappedFile::open(file_);
+    if (!mapped) {
+        if (mapped.error().value != ENOENT)
+            warn(file_, "the record of earlier conversions cannot be read: " + describe(mapped.error()));
+        return;
+    }
+    const nlohmann::json record = nlohmann::json::parse(as_text(mapped->bytes()));
+    for (const auto& [output, members] : record.at("outputs").items()) {
+        Entry entry{members.at("recipe").get<std::string>(), as_stamp(members.at("output")), {}};
+        for (const nlohmann::json& source : members.at("sources"))
+            entry.sources.push_back({source.at(0).get<std::string>(), as_stamp(source.at(1))});
+        entries_.emplace(output, std::move(entry));
+    }
+}
+
+bool BatchRecord::is_up_to_date(const BatchFile& file, const std::string& recipe) const {
+    const auto found = entries_.find(file.place.generic_string());
+    if (found == entries_.end()) return false;
+    const Entry& entry = found->second;
+    return entry.recipe == recipe && entry.output.is_there && entry.output == converter::stamp_of(file.output) &&
+           !entry.sources.empty() && in_plain_folder(entry.sources.front().file) == in_plain_folder(file.input) &&
+           std::all_of(entry.sources.begin(), entry.sources.end(),
+                       [](const SourceFile& source) { return source.stamp == converter::stamp_of(source.file); });
+}
+
+void BatchRecord::note(const BatchFile& file, const std::string& recipe, const std::vector<SourceFile>& sources) {
+    Entry entry{recipe, converter::stamp_of(file.output), sources};
+    for (SourceFile& source : entry.sources) source.file = fs::absolute(source.file);
+    entries_[file.place.generic_string()] = std::move(entry);
+}
+
+std::string BatchRecord::write() const {
+    nlohmann::json outputs = nlohmann::json::object();
+    for (const auto& [output, entry] : entries_) {
+        if (!converter::stamp_of(folder_ / output).is_there) continue;
+        nlohmann::json sources = nlohmann::json::array();
+        for (const SourceFile& source : entry.sources)
+            sources.push_back(nlohmann::json::array({source.file.string(), as_json(source.stamp)}));
+        outputs[output] = {
+            {"recipe", entry.recipe}, {"output", as_json(entry.output)}, {"sources", std::move(sources)}};
+    }
+    // A name that is not UTF-8 is not stored, so its file is converted again.
+    const std::string text = json_text(nlohmann::json{{"outputs", std::move(outputs)}});
+    const auto written = write_file(file_, as_byte_span(text));
+    return written ? std::string() : bendy::describe(written.error());
+}
+
+}  // namespace bendy::tools
