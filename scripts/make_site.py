@@ -14,8 +14,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 LINK = re.compile(r"(\]\()([^)\s]+)(\))")
-# What stands first in the format's part of the menu; the other pages of spec/ and all chunks follow.
-SPEC_FIRST = ["README", "grammar", "tree", "streams", "codecs", "constraints", "rig", "text"]
+# The first pages in the format's part of the menu; the other pages of spec/ and all chunks follow.
+SPEC_FIRST = ["README", "quick", "grammar", "tree", "streams", "codecs", "constraints", "rig", "text"]
 
 
 def title_of(page):
@@ -106,7 +106,7 @@ def main():
         return 1
     done = subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--clean", "-f", str(folder / "mkdocs.yml")], check=False)
     if done.returncode == 0:
-        page = ROOT / "web/dist/page.html"
+        page = ROOT / "bindings/web/dist/page.html"
         if page.exists():
             shutil.copy(page, folder / "site")
         print(f"{folder}/site/index.html")

@@ -20,6 +20,8 @@ A comment names figures in the text that a command prints; each must be in what 
 
     <!-- printed by: bendy convert mannequin.glb | 351,344 bytes | 65 -->
 
+Such a comment may be folded into several lines.
+
 A block without a language, or an indented one, is a fault: nothing hides.
 """
 
@@ -36,7 +38,7 @@ from pathlib import Path
 
 FENCE = re.compile(r"^```(\w*)\s*$")
 COMMENT = re.compile(r"^<!-- (run by|not run:) (.+) -->$")
-FIGURES = re.compile(r"^<!-- printed by: ([^|\n]+?)((?: \| [^|\n]+?)+) -->$", re.MULTILINE)
+FIGURES = re.compile(r"^<!-- printed by: (?:(?!-->)[^|])+(?:\s\|\s(?:(?!-->)[^|])+)+ -->$", re.MULTILINE)
 # What the parts of functions in the pages may name beside what they declare.
 PARTS = """
 #include <bendy/runtime.h>
@@ -166,10 +168,11 @@ class Runner:
         said = " ".join(re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL).split())
         for found in FIGURES.finditer(text):
             place = f"{page}:{text.count(chr(10), 0, found.start()) + 1}"
-            printed = self.run(place, ["bash", "-eu", "-o", "pipefail", "-c", found[1]])
-            for figure in found[2].split(" | ")[1:]:
+            command, *figures = " ".join(found[0][len("<!-- printed by:"):-len("-->")].split()).split(" | ")
+            printed = self.run(place, ["bash", "-eu", "-o", "pipefail", "-c", command])
+            for figure in figures:
                 if figure not in printed:
-                    self.fault(place, f"'{figure}' is not printed by {found[1]}:\n{printed[-2000:]}")
+                    self.fault(place, f"'{figure}' is not printed by {command}:\n{printed[-2000:]}")
                 if figure not in said:
                     self.fault(place, f"'{figure}' is not in the page")
 

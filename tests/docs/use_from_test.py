@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""The blocks of the README's "Use it from" give the same vertices to the last bit, with the plain kernel.
+"""The blocks of README.md and docs/languages.md give the same vertices to the last bit, with the plain kernel.
 
     use_from_test.py --bendy PROGRAM --source SOURCE_DIR --compile "COMMAND" --link "FLAGS"
                      [--c-library libbendy.so] [--python INTERPRETER PACKAGE_FOLDER]
 
-The blocks for C++, C and Python run in a folder with the example character; the numbers that each leaves in `positions`
-are compared with the output of `bendy pose`. web/test/docs.test.mjs does the same with the block for JavaScript.
+The blocks for C++ (README.md), C and Python (docs/languages.md) run in a folder with the example character; the numbers that each leaves in `positions`
+are compared with the output of `bendy pose`. bindings/web/test/docs.test.mjs does the same with the block for JavaScript.
 """
 
 import argparse
@@ -42,10 +42,9 @@ sys.stdout.buffer.write(positions.tobytes())
 """
 
 
-def block_of(readme, language):
-    """The first block of a language in the section."""
-    section = readme[readme.index("\n## Use it from\n"):readme.index("\n## Documentation\n")]
-    return re.search(rf"^```{language}\n(.*?)^```$", section, re.MULTILINE | re.DOTALL)[1]
+def block_of(page, language):
+    """The first block of a language in a page."""
+    return re.search(rf"^```{language}\n(.*?)^```$", page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)[1]
 
 
 def program_of(block, frame):
@@ -57,7 +56,7 @@ def program_of(block, frame):
 class Blocks:
     def __init__(self, options, folder):
         self.options, self.folder = options, folder
-        self.readme = (options.source / "README.md").read_text(encoding="utf-8")
+        self.readme, self.languages = options.source / "README.md", options.source / "docs/languages.md"
         self.environment = {**os.environ, "BENDY_KERNEL": "plain", "PYTHONDONTWRITEBYTECODE": "1"}
 
     def run(self, *command, **more):
@@ -78,14 +77,14 @@ class Blocks:
 
     def c(self):
         library = self.options.c_library
-        (self.folder / "block.c").write_text(program_of(block_of(self.readme, "c"), C), encoding="utf-8")
-        self.run("cc", "-std=c99", "-Wall", "-Wextra", "-Werror", f"-I{self.options.source}/capi/include", "block.c", "-o", "from_c",
+        (self.folder / "block.c").write_text(program_of(block_of(self.languages, "c"), C), encoding="utf-8")
+        self.run("cc", "-std=c99", "-Wall", "-Wextra", "-Werror", f"-I{self.options.source}/bindings/c/include", "block.c", "-o", "from_c",
                  library, f"-Wl,-rpath,{library.parent}")
         return self.run("./from_c")
 
     def python(self):
         interpreter, package = self.options.python
-        return self.run(interpreter, "-c", block_of(self.readme, "python") + PYTHON, PYTHONPATH=package)
+        return self.run(interpreter, "-c", block_of(self.languages, "python") + PYTHON, PYTHONPATH=package)
 
 
 def main():
