@@ -2,7 +2,7 @@
 """Holds the specification against the code: python3 check_spec.py [SOURCE_DIR]
 
 Compares the tables of format/ (chunk_ids.def, records.def, error_codes.def, limits.h, the
-flags of chunk.h, the stream rules of mesh.cpp, and references.def of extensions/) with the tables of spec/, in both directions, those of the grammar files
+flags of chunk.h, the stream rules of mesh.cpp, and references.def of format/extensions/) with the tables of spec/, in both directions, those of the grammar files
 bendy.ksy and bendy.hexpat among them; follows the links between pages; and asks the scripts of spec/ whether their dumps and files are what they make now. One line for each difference; exit 1 if
 there is one. Python 3, nothing else.
 """
@@ -281,6 +281,34 @@ def check_records(check, records):
     check.same_keys('spec', 'record', list(found), list(records))
 
 
+def check_quick(check, chunks, records):
+    """The records that quick.md repeats in short, '16 f32[3] translation' in a table of its own; the ids that its readers know."""
+    name = 'spec/quick.md'
+    found = set()
+    for _, header, rows in tables(check.page('quick.md')):
+        if header != ['chunk', 'record', 'bytes', 'fields']:
+            continue
+        for chunk, struct, size, fields in rows:
+            found.add(struct)
+            if struct not in records:
+                check.fail(name, '%s is no record' % struct)
+                continue
+            if chunk != 'streams':
+                check.same(name, 'chunk of ' + struct, chunk, records[struct]['chunk'])
+            needed = records[struct]['shortest'] or size_of(struct, records)
+            check.same(name, 'bytes of ' + struct, int(re.match(r'\d+', size)[0]), needed)
+            code = {field: (offset, kind, count) for offset, kind, count, field in records[struct]['fields']}
+            for field in fields.split('; '):
+                part = re.match(r'(\d+) (\w+)(?:\[(\d+)\])? (\w+)', field)
+                in_spec = (int(part[1]), part[2], int(part[3] or 1)) if part else field
+                check.same(name, '%s.%s' % (struct, part[4] if part else field), in_spec, code.get(part[4]) if part else None)
+    check.understood(found, 'quick.md')
+    for name in ('spec/readers/quick_reader.py', 'spec/readers/quick_reader.c'):
+        known = re.search(r'"(HEAD VERS [A-Z" \n]*)"', (check.source / name).read_text(encoding='utf-8'))
+        check.understood(known, name)
+        check.same_keys(name, 'id', re.findall(r'[A-Z]{4}', known[1]), list(chunks))
+
+
 def enumerations(check):
     """enumeration -> [names in order of their values]"""
     code = {enum: names.split(', ') for enum, names in
@@ -406,7 +434,7 @@ GONE = {'entry': 'entry', 'entry_or_list': 'entry, and an emptied list', 'member
 
 def check_references(check):
     name = 'spec/rig.md'
-    table = (check.source / 'extensions/include/bendy/extensions/references.def').read_text(encoding='utf-8')
+    table = (check.source / 'format/extensions/include/bendy/extensions/references.def').read_text(encoding='utf-8')
     lines = re.findall(r'^BENDY_REFERENCE\("(\w+)", (\w+), "([^"]*)", (\w+), "([^"]*)", (\w+)\)$', table, re.MULTILINE)
     check.understood(lines and len(lines) == len(re.findall(r'^BENDY_REFERENCE', table, re.MULTILINE)), 'references.def')
     code = {}
@@ -559,6 +587,7 @@ def main(arguments):
     check_index(check, chunks)
     check_tree(check, chunks)
     check_records(check, records)
+    check_quick(check, chunks, records)
     check_enumerations(check)
     check_leaves(check, chunks, records)
     check_streams(check)
