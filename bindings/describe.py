@@ -14,6 +14,11 @@ Some of the header's forms are machine-readable:
   uint32_t field            with BENDY_NONE in its comment: an index that may be none
   uint32_t field            with a comment that begins "a sum of bendy_NAME": bits, each of which is a flag elsewhere
   struct field              whose first field has a comment that begins "or BENDY_NONE: not used": may be absent elsewhere
+  field               with "added later, as all below" in its comment: the first version of the struct ended before it
+  const float* mask   with "bendy_joint_count numbers" in its comment: an array of so many; so with a field of the part that is named
+                      before it, "bendy_mesh.targets numbers"
+  function            with "elsewhere: NAME" in its comment: its name in the classes of other languages
+  parameter           with "elsewhere: VALUE if not given" in its comment: its default in other languages
   const char* extras, more, extensions    JSON, which other languages parse
 """
 
@@ -39,6 +44,7 @@ class Field:
     type: Type
     count: int = 0
     doc: str = ""
+    is_later: bool = False  # the first of those that the first version of a struct did not have
 
     @property
     def enum(self):
@@ -149,7 +155,8 @@ def declaration(text):
     comments = re.findall(r"/\*.*?\*/", text, re.DOTALL)
     bare = " ".join(re.sub(r"/\*.*?\*/", " ", text, flags=re.DOTALL).split())
     const, kind, star, name, count = re.fullmatch(r"(const )?(\w+)\s?(\*)? ?(\w+)(?:\[(\w+)\])?", bare).groups()
-    return Field(name, Type(kind, bool(const), bool(star)), int(count or 0), " ".join(map(words_of, comments)))
+    doc, is_later = re.subn("(; )?added later, as all below$", "", " ".join(map(words_of, comments)))
+    return Field(name, Type(kind, bool(const), bool(star)), int(count or 0), doc, is_later == 1)
 
 
 def items(body, end):

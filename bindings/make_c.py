@@ -4,8 +4,8 @@
 calls.h     the functions that the sources of c/ define: each has its arguments checked already, and structs with defaults filled in
 calls.cpp   the functions of bendy.h that can fail: they check their arguments, the same way everywhere, and call those of calls.h;
             and those that free a handle or count parts
-fields.h    for each struct that crosses the boundary, how its fields are checked, and how they are copied: to a C++ struct that has all
-            their names, and from one that may lack some
+fields.h    the first sizes of the structs that have grown; for each struct that crosses the boundary, how its fields are checked, and
+            how they are copied: to a C++ struct that has all their names, and from one that may lack some
 
 --check compares what is in FOLDER with what would be written."""
 
@@ -255,7 +255,10 @@ def make(api):
             "#include <cstddef>\n#include <cstdint>\n#include <span>\nusing namespace bendy::capi;\n\n" + "\n".join(filter(None, (Call(api, function).definition() if function.can_fail else plain_definition(function)
                                         for function in api.functions.values())))}
     inputs, outputs = crossing(api, True), crossing(api, False)
-    lines = [HEAD + '#pragma once\n#include "assign.h"\n#include "fail.h"\n#include <bendy.h>\nnamespace bendy::capi {']
+    lines = [HEAD + '#pragma once\n#include "assign.h"\n#include "fail.h"\n#include <bendy.h>\n#include <cstddef>\nnamespace bendy::capi {']
+    for struct in api.structs.values():
+        lines += [f"template <> inline constexpr std::size_t kFirstSize<{struct.name}> = offsetof({struct.name}, {one.name});"
+                  for one in struct.fields if one.is_later]
     for struct in api.structs.values():
         members = []
         if struct in inputs and has_checks(api, struct):

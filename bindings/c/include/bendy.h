@@ -107,7 +107,8 @@ typedef struct bendy_open_options {
                             bendy_check_sums; opening is faster, and corruption on disk goes unnoticed until then.
                             Structure is checked, and access is memory safe, in either case */
     uint32_t copied; /* for bendy_open; 0: the file is mapped. 1: it is read into memory, so that the program survives
-                        if another one makes the file shorter while it is open (docs/embedding.md) */
+                        if another one makes the file shorter while it is open (docs/embedding.md); added later, as all
+                        below */
 } bendy_open_options;
 
 #define BENDY_OPEN_OPTIONS_INIT \
@@ -177,8 +178,8 @@ typedef struct bendy_joint {
     uint32_t parent; /* or BENDY_NONE */
     const char* name;
     bendy_transform rest;
-    float shear[3]; /* xy, xz, yz: the elements above the diagonal of the scale matrix */
-    const char* extras;
+    float shear[3];     /* xy, xz, yz: the elements above the diagonal of the scale matrix */
+    const char* extras; /* added later, as all below */
 } bendy_joint;
 
 typedef struct bendy_clip {
@@ -189,7 +190,7 @@ typedef struct bendy_clip {
     float end;          /* seconds: end of the clip's time line */
     float frame_rate;   /* frames per second, 0 if its keys are not at fixed frames */
     uint32_t is_packed; /* 1: some of its tracks are stored as quantised frames; they are not among its bendy_track, but
-                           bendy_sample plays them */
+                           bendy_sample plays them; added later, as all below */
     const char* extras;
     const char* more;
 } bendy_clip;
@@ -220,7 +221,7 @@ typedef struct bendy_chain { /* an IK chain: the joints on the path from the eff
     uint32_t target;   /* joint that the chain follows in bendy_reach_all, or BENDY_NONE */
     uint32_t pole;     /* joint to bend towards, or BENDY_NONE */
     const char* name;
-    uint32_t solver;       /* a bendy_solver */
+    uint32_t solver;       /* a bendy_solver; added later, as all below */
     uint32_t flags;        /* a sum of bendy_origin */
     uint32_t iterations;   /* maximum; 0: the solver's default */
     uint32_t priority;     /* chains with a higher one are solved later and override the others */
@@ -243,7 +244,8 @@ typedef struct bendy_morph_target {
     uint32_t mesh;
     const char* name;
     float rest_weight;
-    uint32_t vertices;      /* number of vertices that it displaces: the capacity that bendy_get_displacements needs */
+    uint32_t vertices; /* number of vertices that it displaces: the capacity that bendy_get_displacements needs; added
+                          later, as all below */
     uint32_t has_positions; /* 0 or 1: it displaces positions */
     uint32_t has_normals;   /* 0 or 1 */
     uint32_t has_tangents;  /* 0 or 1 */
@@ -264,7 +266,7 @@ typedef struct bendy_mesh {
     uint32_t bones;              /* number of matrices for bendy_bone_matrices; 0: rigid */
     uint32_t influences;         /* number of bones per vertex; 0: rigid */
     uint32_t mover;       /* joint that moves all vertices of a rigid mesh; BENDY_NONE if the mesh is not rigid, if
-                             several joints do (bendy_get_movers), or if none does */
+                             several joints do (bendy_get_movers), or if none does; added later, as all below */
     uint32_t frames;      /* number of whole shapes for bendy_frame_sequence: frame 0 is the mesh itself, frame k
                              is morph target first_frame + k - 1; 1 if there are none */
     uint32_t first_frame; /* index among the targets of the mesh */
@@ -300,15 +302,15 @@ typedef struct bendy_material {
     float metallic;  /* 0 to 1 */
     float roughness; /* 0 to 1 */
     const char* name;
-    float base_colour[4];                         /* linear red, green, blue, alpha; 0 to 1 */
-    float emissive[3];                            /* linear red, green, blue */
-    uint32_t double_sided;                        /* 0 or 1 */
-    float normal_scale;                           /* factor of x and y of the normal texture */
-    float occlusion_strength;                     /* 0 to 1 */
-    float alpha_cutoff;                           /* BENDY_ALPHA_MASK: pixels with less alpha are not drawn */
-    uint32_t alpha_mode;                          /* a bendy_alpha_mode */
-    uint32_t unlit;                               /* 0 or 1; 1: only the base colour is used, without lights */
-    bendy_texture_use base_colour_texture;        /* sRGB; alpha is linear */
+    float base_colour[4];                  /* linear red, green, blue, alpha; 0 to 1 */
+    float emissive[3];                     /* linear red, green, blue */
+    uint32_t double_sided;                 /* 0 or 1 */
+    float normal_scale;                    /* factor of x and y of the normal texture; added later, as all below */
+    float occlusion_strength;              /* 0 to 1 */
+    float alpha_cutoff;                    /* BENDY_ALPHA_MASK: pixels with less alpha are not drawn */
+    uint32_t alpha_mode;                   /* a bendy_alpha_mode */
+    uint32_t unlit;                        /* 0 or 1; 1: only the base colour is used, without lights */
+    bendy_texture_use base_colour_texture; /* sRGB; alpha is linear */
     bendy_texture_use metallic_roughness_texture; /* linear; green: roughness, blue: metallic */
     bendy_texture_use normal_texture;             /* linear, tangent space */
     bendy_texture_use occlusion_texture;          /* linear; red: occlusion */
@@ -679,7 +681,7 @@ typedef struct bendy_curve {
     uint32_t target;      /* index of the joint, material, mesh or texture; BENDY_NONE: no target */
     float start;          /* seconds: time of the first key */
     float end;            /* seconds: time of the last key */
-    uint32_t interpolation; /* a bendy_interpolation */
+    uint32_t interpolation; /* a bendy_interpolation; added later, as all below */
     uint32_t keys;
     const float* times; /* seconds, one per key, ascending; owned by the model */
     float max_error;    /* largest difference between a stored value and the source's; 0: exact */

@@ -77,26 +77,9 @@ bendy_status guarded(bendy_error* error, const Call& call) {
 // Structs that begin with their size, which may differ between the program and this library.
 
 /// The size that S had when it was added to bendy.h: every program's struct has these fields. Fields added later do not
-/// change it.
+/// change it, see fields.h; padding at the end of the original form is not counted.
 template <class S>
 inline constexpr std::size_t kFirstSize = sizeof(S);
-// The structs that have grown. Padding at the end of the original form is not counted.
-template <>
-inline constexpr std::size_t kFirstSize<bendy_open_options> = offsetof(bendy_open_options, copied);
-template <>
-inline constexpr std::size_t kFirstSize<bendy_joint> = offsetof(bendy_joint, extras);
-template <>
-inline constexpr std::size_t kFirstSize<bendy_clip> = offsetof(bendy_clip, is_packed);
-template <>
-inline constexpr std::size_t kFirstSize<bendy_chain> = offsetof(bendy_chain, solver);
-template <>
-inline constexpr std::size_t kFirstSize<bendy_morph_target> = offsetof(bendy_morph_target, vertices);
-template <>
-inline constexpr std::size_t kFirstSize<bendy_mesh> = offsetof(bendy_mesh, mover);
-template <>
-inline constexpr std::size_t kFirstSize<bendy_material> = offsetof(bendy_material, normal_scale);
-template <>
-inline constexpr std::size_t kFirstSize<bendy_curve> = offsetof(bendy_curve, interpolation);
 
 /// Larger than any struct will ever be: a size this large was never set.
 inline constexpr std::size_t kMostSize = 4096;

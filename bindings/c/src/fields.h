@@ -1,9 +1,26 @@
 // Made from bendy.h by bindings/make_c.py.
 #pragma once
 #include <bendy.h>
+#include <cstddef>
 #include "assign.h"
 #include "fail.h"
 namespace bendy::capi {
+template <>
+inline constexpr std::size_t kFirstSize<bendy_open_options> = offsetof(bendy_open_options, copied);
+template <>
+inline constexpr std::size_t kFirstSize<bendy_joint> = offsetof(bendy_joint, extras);
+template <>
+inline constexpr std::size_t kFirstSize<bendy_clip> = offsetof(bendy_clip, is_packed);
+template <>
+inline constexpr std::size_t kFirstSize<bendy_chain> = offsetof(bendy_chain, solver);
+template <>
+inline constexpr std::size_t kFirstSize<bendy_morph_target> = offsetof(bendy_morph_target, vertices);
+template <>
+inline constexpr std::size_t kFirstSize<bendy_mesh> = offsetof(bendy_mesh, mover);
+template <>
+inline constexpr std::size_t kFirstSize<bendy_material> = offsetof(bendy_material, normal_scale);
+template <>
+inline constexpr std::size_t kFirstSize<bendy_curve> = offsetof(bendy_curve, interpolation);
 template <>
 struct Fields<bendy_open_options> {
     template <class To>
