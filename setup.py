@@ -18,13 +18,16 @@ from setuptools.command.build_ext import build_ext
 ROOT = Path(__file__).resolve().parent
 # Where setuptools puts its own files: the package's folder stays as it is.
 WORK = Path(os.environ.get("BENDY_BUILD_DIR", ROOT / "build")) / "python_wheel"
+# An editable installation is the package in the build folder, most of which are links to the sources.
+IS_EDITABLE = "editable_wheel" in sys.argv
+BUILD = Path(os.environ.get("BENDY_BUILD_DIR", WORK / "editable"))
 
 
 class CMakeBuild(build_ext):
     def build_extension(self, extension):
         folder = os.environ.get("BENDY_BUILD_DIR")
         if folder is None:
-            folder = Path(self.build_temp).resolve()
+            folder = BUILD if IS_EDITABLE else Path(self.build_temp).resolve()
             self.configure(folder)
         jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
         subprocess.run(["cmake", "--build", folder, "--target", "bendy_python", "--parallel", jobs], check=True)
@@ -34,9 +37,8 @@ class CMakeBuild(build_ext):
         if not module.exists():
             raise SystemExit(f"{module} is missing: the build folder is for another Python than {sys.executable}")
         shutil.copyfile(module, output)
-        if not self.inplace:  # the build folder has the whole package, with what is made from bendy.h
-            for file in module.parent.glob("*.py*"):
-                shutil.copyfile(file, output.parent / file.name)
+        for file in module.parent.glob("*.py*"):  # the build folder has the whole package, with what is made from bendy.h
+            shutil.copyfile(file, output.parent / file.name)
 
     def configure(self, folder):
         arguments = ["-DCMAKE_BUILD_TYPE=Release", "-DBENDY_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}"]
@@ -55,4 +57,9 @@ class CMakeBuild(build_ext):
 
 version = re.search(r"project\(bendy VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
 WORK.mkdir(parents=True, exist_ok=True)
-setup(version=version, options={"build": {"build_base": str(WORK)}, "egg_info": {"egg_base": str(WORK)}}, ext_modules=[Extension("bendy._bendy", [])], cmdclass={"build_ext": CMakeBuild})
+package = BUILD / "python" if IS_EDITABLE else ROOT / "bindings/python"
+if IS_EDITABLE:
+    Path(package, "bendy").mkdir(parents=True, exist_ok=True)
+setup(version=version, packages=["bendy"], package_dir={"": os.path.relpath(package, ROOT)},
+      options={"build": {"build_base": str(WORK)}, "egg_info": {"egg_base": str(WORK)}},
+      ext_modules=[Extension("bendy._bendy", [])], cmdclass={"build_ext": CMakeBuild})

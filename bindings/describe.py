@@ -84,6 +84,18 @@ class Field:
     def may_be_null(self):
         return self.doc.startswith("or NULL")
 
+    @property
+    def default(self):
+        """What other languages pass if the parameter is not given, as text: a number or a word; or None."""
+        found = re.search(r"elsewhere: (\S+) if not given", self.doc)
+        return found and found[1]
+
+    @property
+    def length(self):
+        """How many numbers an array has that no parameter counts: (a function, "") or (a struct, its field); or None."""
+        found = re.search(r"(bendy_\w+)(?:\.(\w+))? numbers", self.doc)
+        return found and (found[1], found[2] or "")
+
 
 @dataclass
 class Struct:

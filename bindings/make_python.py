@@ -3,7 +3,8 @@
 
 make_python.py BENDY_H made SOURCE.cpp STUB.pyi    the module bendy._bendy.c, over bindings/python/src/c_layer.h, and its types
 make_python.py BENDY_H expand FROM.py TO.py        a file of the package: **options: "bendy_NAME" in a signature, its docstring and
-                                                   the call below become the options, with their defaults, in the order of the struct
+                                                   the call below become the options, with their defaults, in the order of the struct;
+                                                   follows: "bendy_HANDLE" in a class becomes what methods.py finds and it lacks
 
 A function becomes one of the same name, without bendy_: errors are exceptions; what the function fills is its result, and a struct
 may also be given by keyword to be filled; `count` follows from arrays; NULL and BENDY_NONE are None. bendy_NAME_free is what frees a
@@ -18,6 +19,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from describe import read  # noqa: E402
+from methods import Method, PARTS, class_of, documentation, follow, name_of  # noqa: E402
 
 # type of C: kind in c_layer.h, Python's
 NUMBERS = {"uint32_t": ("u32", "int"), "int32_t": ("i32", "int"), "uint64_t": ("u64", "int"), "int64_t": ("i64", "int"),
@@ -310,6 +312,8 @@ class Maker:
             elif role in ("fixed in", "array in", "free array"):
                 number = "float" if self.is_rows(kind) else kind
                 before.append(f"const Numbers<{number}> {name}({name}_, \"{name}\", {one.count}, {null});")
+                if role == "free array":
+                    before += self.length_check(function, one, handles[0])
                 if role == "array in":
                     rooms.append(one)
                 if self.is_rows(kind):
@@ -358,6 +362,18 @@ class Maker:
         body = "\n".join("            " + line for line in before + after)
         return (f"    module.def(\n        \"{bare(function.name)}\",\n        []({arguments}) {{\n{body}\n        }}{names},\n"
                 f"        {quoted(in_python(function.doc))});")
+
+    def length_check(self, function, one, owner):
+        """The statements that check the length of an array that the function does not take."""
+        if not one.length:
+            raise SystemExit(f"{function.name}: how many {one.name}? Say \"bendy_NAME numbers\"")
+        name, field = one.length
+        if not field:
+            return [f"{one.name}.check_size({name}(model_of({owner})), \"{one.name}\");"]
+        part = bare(name)
+        return [f"{name} its_{part}{{}};", f"its_{part}.size = sizeof its_{part};",
+                f"if (bendy_get_{part}(model_of({owner}), {part}, &its_{part}, nullptr) == BENDY_OK)",
+                f"    {one.name}.check_size(its_{part}.{field}, \"{one.name}\");"]
 
     def is_only_for_c(self, function):
         return "Only for C" in function.doc
@@ -448,6 +464,9 @@ class Maker:
             yield python, kind, self.default(one, defaults[one.name], given), doc
 
     def expand(self, text):
+        return self.expand_options(self.expand_classes(text))
+
+    def expand_options(self, text):
         """Replaces `**options: "bendy_NAME"` in a signature; in the function's docstring a line `**options`, and in its body `**options`
         in a call."""
         pieces = re.split(r"(?=^ *def )", text, flags=re.MULTILINE)
@@ -471,6 +490,81 @@ class Maker:
             pieces[place] = piece.replace("**options", ", ".join(name for name, _, _, _ in options))
         return "".join(pieces)
 
+    # Properties and methods that follow, in the package's own classes.
+
+    def expand_classes(self, text):
+        """Replaces `follows: "bendy_HANDLE"` in a class."""
+        pieces = re.split(r"(?=^class )", text, flags=re.MULTILINE)
+        for place, piece in enumerate(pieces):
+            found = re.search(r'^    follows: "(bendy_\w+)"\n', piece, re.MULTILINE)
+            if not found:
+                continue
+            by_hand = set(re.findall(r"^    def (\w+)\(", piece, re.MULTILINE))
+            made = [one for one in follow(self.api, found[1], re.compile("Only for C")).values()
+                    if one.name not in by_hand and not (isinstance(one, Method) and one.out)]
+            of = re.search(r"^class (\w+)", piece)[1]
+            lines = [line for one in made for line in (self.method(one, of) if isinstance(one, Method) else self.property(one)) + [""]]
+            listed = "\n".join("    " + line if line else "" for line in lines[:-1])
+            pieces[place] = piece[:found.start()] + listed + "\n" + piece[found.end():]
+        return "".join(pieces)
+
+    def property(self, one):
+        call = f"c.{bare(one.function.name)}(self._handle)"
+        result = one.field and self.kind(one.field) == "word" and "str" or one.field and self.python_type(one.field)
+        result = result or ("bool" if one.is_flag else NUMBERS[one.function.result.name][1])
+        value = f"{call}.{one.name}" if one.field else f"bool({call})" if one.is_flag else call
+        doc = re.sub("^1: ", "True: ", self.in_package(one.doc)) if one.is_flag else self.in_package(one.doc)
+        if one.field and one.field.enum:
+            doc = f"{re.sub(f'^an? {pascal(one.field.enum)}:? ?', '', doc) or 'one of'}: {', '.join(self.api.enums[one.field.enum].words)}"
+        lines = ["@property", f"def {one.name}(self) -> {result}:", *self.docstring(doc), f"    return {value}"]
+        if one.setter:
+            lines += ["", f"@{one.name}.setter", f"def {one.name}(self, {one.name}: {result}) -> None:",
+                      f"    c.{bare(one.setter.name)}(self._handle, {one.name})"]
+        return lines
+
+    def method(self, one, of):
+        taken = "".join(", " + self.taken(given) for given in one.taken)
+        passed = "".join(", " + self.passed(given) for given in one.given)
+        raised = ["KeyError", "IndexError"] * any(given.name in PARTS for given in one.given) + ["ValueError"] * bool(one.given)
+        subject = one.function.parameters[0].name
+        doc = self.in_package(documentation(one.function).replace(f"`{subject}`", f"the {subject}"))
+        is_changed = one.function.result.name == "bendy_status"
+        result = of if is_changed else NUMBERS[one.function.result.name][1]
+        call = f"c.{bare(one.function.name)}(self._handle{passed})"
+        return [f"def {one.name}(self{taken}) -> {result}:", *self.docstring(doc, f"Raises {', '.join(raised)}." if raised else ""),
+                *([f"    {call}", "    return self"] if is_changed else [f"    return {call}"])]
+
+    def taken(self, one):
+        if one.enum or one.name in PARTS:
+            kind = "str" if one.enum else f"Union[str, SupportsIndex, {pascal('bendy_' + one.name)}]"
+        else:
+            kind = "ArrayLike" if one.length else pascal(one.type.name) if one.type.name in self.api.handles else "float"
+        default = None if one.default is None else quoted(one.default) if one.enum else repr(float(one.default))
+        kind, default = (f"Optional[{kind}]", "None") if one.may_be_null else (kind, default)
+        return f"{one.name}: {kind}" + (f" = {default}" if default else "")
+
+    def passed(self, one):
+        if one.name in PARTS:
+            return f'self._character.find("{one.name}", {one.name})'
+        return f"{one.name}._handle" if one.type.name in self.api.handles else one.name
+
+    def in_package(self, doc):
+        """A comment with the names of the package's classes."""
+        words = {name: word for enum in self.api.enums.values() for (name, _, _), word in zip(enum.values, enum.words)}
+
+        def of_function(found):
+            function = self.api.functions.get(found[0])
+            handle = function and class_of(function, self.api)
+            return f"{pascal(handle)}.{name_of(function, handle)}" if handle else pascal(found[0])
+        doc = re.sub(r"\b(?:BENDY_NONE|NULL)\b", "None", doc)
+        doc = re.sub(r"\bBENDY_\w+", lambda found: f"`{words.get(found[0], found[0])}`", doc)
+        doc = re.sub(r"\bbendy_\w+", of_function, doc)
+        return doc
+
+    def docstring(self, *sentences):
+        doc = " ".join(sentence[:1].upper() + sentence[1:] + "." * (sentence[-1] != ".") for sentence in sentences if sentence)
+        return textwrap.wrap(f'"""{doc}"""', 116, initial_indent="    ", subsequent_indent="    ")
+
 
 def main():
     header, what, source, target = sys.argv[1:]
@@ -479,7 +573,9 @@ def main():
         Path(source).write_text(maker.source(), encoding="utf-8")
         Path(target).write_text(maker.stub(), encoding="utf-8")
     else:
-        Path(target).write_text(maker.expand(Path(source).read_text(encoding="utf-8")), encoding="utf-8")
+        expanded = maker.expand(Path(source).read_text(encoding="utf-8"))
+        Path(target).unlink(missing_ok=True)  # it may have been a link to the source
+        Path(target).write_text(expanded, encoding="utf-8")
 
 
 if __name__ == "__main__":

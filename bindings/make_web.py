@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Makes what the WebAssembly module and its TypeScript share, from the C header: make_web.py BENDY_H FOLDER SOURCE...
 
-exports.txt   the functions that the module exports, for emscripten: those that the TypeScript sources call
+exports.txt   the functions that the module exports, for emscripten: those that the TypeScript sources, or classes.ts, call
 bindings.ts   their types; the words of the enumerations; each struct as an object, with its documentation, and what reads or writes
               it; the class Calls, whose methods take and return such objects and throw
+classes.ts    the bases of the classes for handles, with the properties and methods that follow from the header
 layout.c      assertions about the structs' sizes and their fields' places, for the compiler
 """
 
@@ -13,6 +14,7 @@ from pathlib import Path
 
 import describe
 from web_calls import Call
+from web_classes import Base, classes
 from web_structs import Structs, camel, comment, pascal, short
 
 
@@ -61,17 +63,24 @@ def checks(layouts):
     return lines
 
 
+def called(structs, source):
+    """The names of the functions that the sources call, and the bases that their classes have."""
+    bases = [Base(structs, handle, source) for handle in structs.api.handles]
+    return set(re.findall(r"\bbendy_\w+", source)).union(*(base.functions for base in bases)), bases
+
+
 def main():
     api = describe.read(sys.argv[1])
     folder = Path(sys.argv[2])
-    called = set(re.findall(r"\bbendy_\w+", "".join(Path(source).read_text(encoding="utf-8") for source in sys.argv[3:])))
-    functions = [function for function in api.functions.values() if function.name in called]
     structs = Structs(api)
+    names, bases = called(structs, "".join(Path(source).read_text(encoding="utf-8") for source in sys.argv[3:]))
+    functions = [function for function in api.functions.values() if function.name in names]
     bindings = ["// Made from bendy.h by bindings/make_web.py.", "import type { Handle, Runtime } from '../runtime.js';", "",
                 *raw_types(functions), "function orNull(index: number): number | null {", "  return index === 0xffffffff ? null : index;",
                 "}", "", *words(structs), *structs.all(), *calls(structs, functions)]
     exports = ["_malloc", "_free", *(f"_{function.name}" for function in functions)]
-    for name, lines in (("bindings.ts", bindings), ("exports.txt", exports), ("layout.c", checks(structs.layouts))):
+    for name, lines in (("bindings.ts", bindings), ("classes.ts", classes(structs, bases)), ("exports.txt", exports),
+                        ("layout.c", checks(structs.layouts))):
         text = "\n".join(lines) + "\n"
         if not (folder / name).exists() or (folder / name).read_text(encoding="utf-8") != text:  # an unchanged file causes no linking
             (folder / name).write_text(text, encoding="utf-8")

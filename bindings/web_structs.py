@@ -2,6 +2,8 @@
 
 import re
 
+from methods import class_of, name_of
+
 # type: size and alignment in bytes, DataView's method
 NUMBERS = {"uint32_t": (4, "Uint32"), "int32_t": (4, "Int32"), "float": (4, "Float32"), "size_t": (4, "Uint32"), "double": (8, "Float64"),
            "uint64_t": (8, "BigUint64"), "int64_t": (8, "BigInt64")}
@@ -82,8 +84,9 @@ class Structs:
         doc = re.sub(r"(^|, )or BENDY_NONE$|^or NULL$", "", doc)
         doc = doc.replace("or BENDY_NONE: ", "null: ").replace("BENDY_NONE", "null").replace("NULL", "null")
         doc = re.sub(r"\bBENDY_\w+", lambda found: f"`{self.values.get(found[0], found[0])}`", doc)
-        doc = re.sub(r"\bbendy_\w+", lambda found: f"`{camel(short(found[0]))}`" if found[0] in self.api.functions
-                     else pascal(short(found[0])), doc).strip()
+        functions = self.api.functions
+        doc = re.sub(r"\bbendy_\w+", lambda found: f"`{camel(name_of(functions[found[0]], class_of(functions[found[0]], self.api)))}`"
+                     if found[0] in functions else pascal(short(found[0])), doc).strip()
         first = doc[:1].upper() if re.match(r"[a-z]{2}|a ", doc) else doc[:1]  # not of "sRGB" and "x y z"
         return doc and first + doc[1:] + ("" if doc[-1] in ".!?" else ".")
 

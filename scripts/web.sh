@@ -24,7 +24,7 @@ for system in "${systems[@]}"; do
     cmake --preset "$system" >/dev/null
     cmake --build --preset "$system"
 done
-cp build/cross/web/build/web/bindings.ts bindings/web/src/generated/
+cp build/cross/web/build/web/{bindings,classes}.ts bindings/web/src/generated/
 cd bindings/web
 [ -e node_modules/puppeteer-core ] || npm ci --silent
 node embed.mjs ../../build/cross/web/build/web/bendy.wasm src/generated/simd.ts 160000

@@ -2,6 +2,7 @@
 
 import json
 import os
+import struct
 import subprocess
 import sys
 from pathlib import Path
@@ -52,6 +53,19 @@ def program():
 def posed(program):
     """What `bendy pose` makes of a file, as JSON."""
     return lambda *arguments: json.loads(program("pose", *arguments, "--format", "json"))
+
+
+def write_quake_model(path, frames):
+    """Writes a model of one triangle, whose frames differ, and returns its path."""
+    pieces = [struct.pack("<6h", 0, 0, 8, 0, 0, 8), struct.pack("<6H", 0, 1, 2, 0, 1, 2), b"", bytes(4)]
+    for number, name in enumerate(frames):
+        corners = b"".join(struct.pack("<4B", *corner, 5) for corner in ((number, 0, 0), (0, 8, 0), (0, 0, 8)))
+        pieces[2] += struct.pack("<6f16s", 1, 1, 1, 0, 0, 0, name.encode()) + corners
+    places = [68, 68]
+    for piece in pieces:
+        places.append(places[-1] + len(piece))
+    path.write_bytes(struct.pack("<4s16i", b"IDP2", 8, 8, 8, 52, 0, 3, 3, 1, 1, len(frames), *places) + b"".join(pieces))
+    return path
 
 
 @pytest.fixture

@@ -13,15 +13,28 @@ import pytest
 from conftest import ROOT
 
 
-def test_pip_installs_it(tmp_path):
-    """Into a fresh environment, from where it needs neither the build folder nor the source."""
+def install(tmp_path, *what):
+    """Into a fresh environment. Returns its Python, and the variables to run it with."""
     if "BENDY_BUILD_DIR" not in os.environ:
         pytest.skip("no build folder to take the module from")
     venv.create(tmp_path / "venv", system_site_packages=True, with_pip=False, symlinks=True)
     python = tmp_path / "venv/bin/python"
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     subprocess.run([python, "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-deps", "--no-index",
-                    "--no-cache-dir", "--disable-pip-version-check", ROOT], check=True, env=environment)
+                    "--no-cache-dir", "--disable-pip-version-check", *what], check=True, env=environment)
+    return python, environment
+
+
+def test_an_editable_installation_is_the_build_folder(tmp_path):
+    python, environment = install(tmp_path, "-e", ROOT)
+    script = (f"import bendy; print(bendy.__file__); print(bendy.open({str(ROOT / 'examples/tentacle.glb')!r}).sample(0, 0.5).skin().shape[1])")
+    printed = subprocess.run([python, "-c", script], check=True, env=environment, cwd=tmp_path, capture_output=True, text=True).stdout
+    assert printed.split() == [str(Path(os.environ["BENDY_BUILD_DIR"], "python/bendy/__init__.py")), "3"]
+
+
+def test_pip_installs_it(tmp_path):
+    """From where it needs neither the build folder nor the source."""
+    python, environment = install(tmp_path, ROOT)
     script = ("import bendy, pathlib; folder = pathlib.Path(bendy.__file__).parent; print(folder); "
               f"print(bendy.open({str(ROOT / 'examples/tentacle.glb')!r}).pose().skin().shape[1]); "
               f"print(bendy.open({str(ROOT / 'examples/mannequin.glb')!r}).pose().reach('IK_LeftArm', (0, 1, 0), solver='ccd').status); "

@@ -151,6 +151,24 @@ def test_levels_of_detail(tmp_path):
     assert 0 < len(mesh.triangles(share=0.25)) < len(mesh.triangles()) / 3
 
 
+def test_clamping(model):
+    for constraint in model.constraints:
+        joint = model.joints[constraint.joint]
+        legal, violation = constraint.clamp_rotation(joint.rotation)
+        numpy.testing.assert_allclose(numpy.abs(numpy.dot(legal, joint.rotation)), 1.0, atol=1e-5)
+        assert violation == pytest.approx(0.0, abs=1e-3)
+        turned = numpy.roll(joint.rotation, 1)
+        legal, violation = constraint.clamp_rotation(turned)
+        assert legal.dtype == numpy.float32 and numpy.linalg.norm(legal) == pytest.approx(1.0, abs=1e-5)
+        again, none_left = constraint.clamp_rotation(legal)
+        assert violation > 0.1 and none_left < 1e-3 and abs(numpy.dot(again, legal)) == pytest.approx(1.0, abs=1e-5)
+        numpy.testing.assert_allclose(constraint.clamp_translation(joint.translation), joint.translation, atol=1e-6)
+    for wrong in (lambda: constraint.clamp_rotation((1, 1, 0, 0)), lambda: constraint.clamp_rotation((0, 0, 1)),
+                  lambda: constraint.clamp_translation((0, 0, numpy.inf))):
+        with pytest.raises(ValueError):
+            wrong()
+
+
 def test_constraints_chains_and_materials(model):
     chain = model.chains["IK_LeftArm"]
     joints = [model.joints[number] for number in chain.links]

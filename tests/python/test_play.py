@@ -5,7 +5,7 @@ import math
 import bendy
 import numpy
 import pytest
-from conftest import ROOT
+from conftest import ROOT, write_quake_model
 
 
 @pytest.fixture(scope="module")
@@ -14,6 +14,31 @@ def walker(tmp_path_factory):
     rig = tmp_path_factory.mktemp("rig") / "steps.json"
     rig.write_text('{"bendy_rig": 1, "markers": {"Walk": {"left": 0.1, "right": 0.6}}}')
     return bendy.convert(ROOT / "examples/mannequin.glb", rig=rig, lod=True).open()
+
+
+def test_fades():
+    fade = bendy.Fade(0.25)
+    assert fade.weight == 0.25 and fade.is_done
+    assert fade.to(1.0, 2.0, "linear").advance(1.0) is fade and not fade.is_done
+    assert fade.weight == pytest.approx(0.625)
+    assert fade.to(0.0, 2.0).advance(0.5).weight == pytest.approx(0.625 * (1 - bendy.ease("smooth", 0.25)))
+    assert fade.advance(5.0).weight == 0.0 and fade.is_done
+    assert bendy.ease("smooth", 0.25) == pytest.approx(3 * 0.25**2 - 2 * 0.25**3) and bendy.ease("linear", 0.25) == 0.25
+    for wrong in (lambda: bendy.Fade(math.nan), lambda: fade.to(1.0, 1.0, "sudden"), lambda: fade.advance(math.inf)):
+        with pytest.raises(ValueError):
+            wrong()
+
+
+def test_frames_of_a_clip(tmp_path):
+    model = bendy.open(write_quake_model(tmp_path / "man.md2", ["run1", "run2", "run3"]))
+    clip, = model.clips
+    sequence, = clip.frame_sequences
+    mesh = model.meshes[sequence.mesh]
+    assert mesh.frames == 3 and sequence.frames == 3 and "FrameSequence 0" in repr(sequence)
+    mix = sequence.mix(clip.start + 0.25 / clip.frame_rate)
+    assert (mix.left, mix.right) == (sequence.first, sequence.first + 1) and mix.fraction == pytest.approx(0.25)
+    with pytest.raises(ValueError):
+        sequence.mix(math.nan)
 
 
 def test_playback_passes_markers(walker):
@@ -25,8 +50,9 @@ def test_playback_passes_markers(walker):
     assert playback.passes == 1 and not playback.is_done
     far = playback.advance(walk.seconds * 1e6)
     assert far.marker_count == 2_000_000 and len(far.markers()) == 1000 and len(far.markers(limit=3)) == 3
-    playback.seek_share(0.5)
-    assert playback.share == pytest.approx(0.5)
+    assert playback.seek_share(0.5) is playback and playback.share == pytest.approx(0.5)
+    assert playback.seek(walk.start + 0.25).seconds == pytest.approx(walk.start + 0.25)
+    assert (playback.start, playback.end) == pytest.approx((walk.start, walk.end))
     playback.speed = 0.0
     assert playback.advance(1.0).is_empty
     playback.mode = "once"

@@ -4,14 +4,13 @@ import inspect
 import json
 import os
 import signal
-import struct
 import subprocess
 import time
 
 import bendy
 import numpy
 import pytest
-from conftest import ROOT
+from conftest import ROOT, write_quake_model
 
 
 def test_conversion_equals_the_programs(tmp_path, program, mannequin):
@@ -72,14 +71,7 @@ def test_files_outside_the_sources_folder(tmp_path):
 
 
 def test_the_texture_of_a_quake_model(tmp_path):
-    model = tmp_path / "man.md2"
-    corners = b"".join(struct.pack("<4B", *corner, 5) for corner in ((0, 0, 0), (0, 8, 0), (0, 0, 8)))
-    pieces = [struct.pack("<6h", 0, 0, 8, 0, 0, 8), struct.pack("<6H", 0, 1, 2, 0, 1, 2), struct.pack("<6f16s", 1, 1, 1, 0, 0, 0, b"still") + corners,
-              bytes(4)]
-    places = [68, 68]
-    for piece in pieces:
-        places.append(places[-1] + len(piece))
-    model.write_bytes(struct.pack("<4s16i", b"IDP2", 8, 8, 8, 52, 0, 3, 3, 1, 1, 1, *places) + b"".join(pieces))
+    model = write_quake_model(tmp_path / "man.md2", ["still"])
     skin = tmp_path / "skin.png"
     skin.write_bytes(b"\x89PNG\r\n\x1a\n")
     assert bendy.convert(model).report["embedded"] == []

@@ -476,9 +476,12 @@ BENDY_API bendy_status bendy_get_displacements(const bendy_model* model, uint32_
  * Normals and tangents are not normalised. `weights` has one number per target of the mesh; NULL: all 0. Each array may
  * be NULL: not wanted; positions and normals have 3 floats per vertex, tangents 4. `count` is the number of vertices to
  * write, the first ones, at most bendy_mesh.vertices. Not in JavaScript: its module stays smaller. */
-BENDY_API bendy_status bendy_apply_morph_targets(
-    const bendy_model* model, uint32_t mesh, const float* weights /* or NULL */, float* positions /* or NULL; 3 each */,
-    float* normals /* or NULL; 3 each */, float* tangents /* or NULL; 4 each */, size_t count, bendy_error* error);
+BENDY_API bendy_status bendy_apply_morph_targets(const bendy_model* model, uint32_t mesh,
+                                                 const float* weights /* or NULL; bendy_mesh.targets numbers */,
+                                                 float* positions /* or NULL; 3 each */,
+                                                 float* normals /* or NULL; 3 each */,
+                                                 float* tangents /* or NULL; 4 each */, size_t count,
+                                                 bendy_error* error);
 
 /* A range of a mesh's index list that belongs to one joint: for hit tests, severed limbs, culling. */
 typedef struct bendy_joint_submesh {
@@ -725,7 +728,7 @@ BENDY_API bendy_pose* bendy_pose_new(const bendy_model* model, bendy_error* erro
 BENDY_API bendy_pose* bendy_pose_copy(const bendy_pose* pose, bendy_error* error);
 BENDY_API void bendy_pose_free(bendy_pose* pose); /* does nothing for NULL */
 
-BENDY_API bendy_status bendy_set_rest(bendy_pose* pose, bendy_error* error);
+BENDY_API bendy_status bendy_set_rest(bendy_pose* pose, bendy_error* error); /* sets the rest pose; elsewhere: reset */
 
 /* Sets the pose to a clip at `seconds` on the clip's time line (bendy_clip.start to end). Whatever the clip does not
  * animate is set to rest. Times outside are clamped to the ends: the caller wraps time for clips that loop. NaN is
@@ -733,14 +736,15 @@ BENDY_API bendy_status bendy_set_rest(bendy_pose* pose, bendy_error* error);
 BENDY_API bendy_status bendy_sample(bendy_pose* pose, uint32_t clip, float seconds /* not NaN */, bendy_error* error);
 
 /* Blends `pose` towards `other`, a pose of the same model: weight 0 leaves it unchanged, 1 makes it equal to
- * `other`; any finite weight is allowed. `mask` scales the weight per joint, or is NULL. */
+ * `other`; any finite weight is allowed. `mask` scales the weight per joint. */
 BENDY_API bendy_status bendy_blend(bendy_pose* pose, const bendy_pose* other, float weight,
-                                   const float* mask /* or NULL */, bendy_error* error);
+                                   const float* mask /* or NULL; bendy_joint_count numbers */, bendy_error* error);
 /* Turns `pose` into its difference from `reference`, as an input for bendy_add. */
 BENDY_API bendy_status bendy_make_additive(bendy_pose* pose, const bendy_pose* reference, bendy_error* error);
-/* Adds a difference, scaled by `weight`. */
-BENDY_API bendy_status bendy_add(bendy_pose* pose, const bendy_pose* difference, float weight,
-                                 const float* mask /* or NULL */, bendy_error* error);
+/* Adds a difference, scaled by `weight` and per joint by `mask`. */
+BENDY_API bendy_status bendy_add(bendy_pose* pose, const bendy_pose* difference,
+                                 float weight /* elsewhere: 1 if not given */,
+                                 const float* mask /* or NULL; bendy_joint_count numbers */, bendy_error* error);
 /* Makes a mask: `inside` for a joint and its descendants, `outside` for all others. `count` is the capacity of
  * `mask`, at least the number of joints. */
 BENDY_API bendy_status bendy_mask_below(const bendy_model* model, uint32_t joint, float inside, float outside,
@@ -877,14 +881,14 @@ typedef struct bendy_playback bendy_playback;
 
 typedef struct bendy_playback_info {
     uint32_t size;
-    uint32_t mode;    /* a bendy_loop_mode */
+    uint32_t mode;    /* a bendy_loop_mode: what happens at the end of the range */
     float seconds;    /* the current time on the clip's time line, as bendy_sample takes it */
     uint32_t is_done; /* 1: stopped at the end that it was heading for; only BENDY_LOOP_ONCE */
-    double start;     /* seconds */
-    double end;       /* seconds */
+    double start;     /* start of the range, seconds */
+    double end;       /* end of the range, seconds */
     double share;     /* the current time as a fraction of the length, 0 to 1 */
     double speed;     /* 1: as authored; 0: paused; negative: backwards */
-    int64_t passes;   /* completed since the last seek, minus those undone backwards; 0 with BENDY_LOOP_ONCE */
+    int64_t passes;   /* number of passes since the last seek, minus those undone backwards; 0 with BENDY_LOOP_ONCE */
 } bendy_playback_info;
 
 /* Creates a clock at the start of a clip, which repeats if the clip loops. */
@@ -904,9 +908,10 @@ BENDY_API bendy_status bendy_playback_set_speed(bendy_playback* playback, double
 /* Sets the bendy_loop_mode; keeps the current time. */
 BENDY_API bendy_status bendy_playback_set_mode(bendy_playback* playback, uint32_t mode /* a bendy_loop_mode */,
                                                bendy_error* error);
-/* Jump to a time in seconds, or to a fraction of the length, without playing what lies between. Clamped to the range;
- * except in BENDY_LOOP_ONCE, the end counts as the start of the next pass. */
+/* Jumps to a time in seconds, clamped to the range, without playing what lies between. Except in BENDY_LOOP_ONCE, the
+ * end counts as the start of the next pass. */
 BENDY_API bendy_status bendy_playback_seek(bendy_playback* playback, double seconds, bendy_error* error);
+/* As bendy_playback_seek, to a fraction of the length, 0 to 1: to keep a walk and a run in step. */
 BENDY_API bendy_status bendy_playback_seek_share(bendy_playback* playback, double share, bendy_error* error);
 
 /* Counts the markers of a clip that an interval passes, each once per pass. Not in JavaScript: it has the list. */
@@ -934,10 +939,14 @@ BENDY_API bendy_fade* bendy_fade_new(float weight, bendy_error* error);
 BENDY_API void bendy_fade_free(bendy_fade* fade); /* does nothing for NULL */
 /* Starts a fade from the current weight that takes `seconds`; immediate if `seconds` is not above 0. */
 BENDY_API bendy_status bendy_fade_to(bendy_fade* fade, float weight, float seconds,
-                                     uint32_t easing /* a bendy_easing */, bendy_error* error);
+                                     uint32_t easing /* a bendy_easing; elsewhere: smooth if not given */,
+                                     bendy_error* error);
+/* Advances by `seconds`. */
 BENDY_API bendy_status bendy_fade_advance(bendy_fade* fade, double seconds, bendy_error* error);
-BENDY_API float bendy_fade_weight(const bendy_fade* fade);     /* 0 for NULL */
-BENDY_API uint32_t bendy_fade_is_done(const bendy_fade* fade); /* 1 once the weight is reached; 1 for NULL */
+/* Returns the current weight; 0 for NULL. */
+BENDY_API float bendy_fade_weight(const bendy_fade* fade);
+/* Returns whether the weight has been reached, 1 or 0; 1 for NULL. */
+BENDY_API uint32_t bendy_fade_is_done(const bendy_fade* fade);
 
 /* A sequence of clips of one model in which each fades in over those before it. A clip that is interrupted keeps
  * playing beneath the next one, so nothing jumps. Calls on it allocate nothing except the text of an error. */

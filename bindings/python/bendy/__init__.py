@@ -28,16 +28,16 @@ from ._bendy import __version__
 from ._errors import ConversionError, EditError, Error, InvalidError, MalformedError, RenderError, UnsupportedError
 from ._items import Items
 from ._mesh import Lod, Material, Mesh, MorphTarget, Submesh, Texture
-from ._model import Chain, Clip, Constraint, Curve, Joint, Marker, Model, Track
-from ._play import Binding, Crossfade, Crowd, PlayedInterval, Playback, Playing, RootMotion, RootPath
+from ._model import Chain, Clip, Constraint, Curve, FrameSequence, Joint, Marker, Model, Track
+from ._play import Binding, Crossfade, Crowd, Fade, PlayedInterval, Playback, Playing, RootMotion, RootPath, ease
 from ._pose import Pose, ReachRequest, ReachResult
 
 __all__ = [
     "Binding", "Chain", "Chunk", "Clip", "Constraint", "Conversion", "ConversionError", "Crossfade", "Crowd", "Curve", "Edit",
-    "EditError", "Error", "Export", "Fault", "Faults", "File", "InvalidError", "Items", "Joint", "Lod", "MalformedError", "Marker",
+    "EditError", "Error", "Export", "Fade", "Fault", "Faults", "File", "FrameSequence", "InvalidError", "Items", "Joint", "Lod", "MalformedError", "Marker",
     "Material", "Mesh", "Model", "MorphTarget", "Playback", "PlayedInterval", "Playing", "Pose", "ReachRequest", "ReachResult",
     "RenderError", "RootMotion", "RootPath", "Submesh", "Texture", "Track", "UnsupportedError", "assemble", "contact_sheet", "convert", "diff",
-    "dump", "edit", "encode_png", "export", "inspect", "open", "render", "save_png", "validate",
+    "dump", "ease", "edit", "encode_png", "export", "inspect", "open", "render", "save_png", "validate",
 ]
 
 

@@ -121,7 +121,7 @@ class Part:
     def __init__(self, character: Character, *place: int) -> None:
         """place: its number, preceded by the number of the clip that contains it, if any."""
         super().__init__()
-        self._character, self._number = character, place[-1]
+        self._character, self._place, self._number = character, place, place[-1]
         getattr(c, "get_" + self._kind)(character.handle, *place, self)
 
     @property

@@ -55,6 +55,20 @@ class Constraint(Part, c.Constraint):
         """Whether it was guessed from the joints' names, not authored."""
         return bool(self.flags & c.PROPOSED)
 
+    def clamp_rotation(self, rotation: ArrayLike) -> Tuple[Floats, float]:
+        """The legal rotation that is nearest to a local rotation of the joint, (4,) float32, and the angle between the two in radians, 0 if
+        the rotation is legal. Rotations are unit quaternions x, y, z, w. Raises ValueError."""
+        clamped, violation = c.clamp_rotation(*self._of_model, c.to_constraint_space(*self._of_model, rotation))
+        return c.from_constraint_space(*self._of_model, clamped), violation
+
+    def clamp_translation(self, translation: ArrayLike) -> Floats:
+        """The legal local translation of the joint that is nearest to this one: (3,) float32, metres. Raises ValueError."""
+        return c.clamp_translation(*self._of_model, translation)
+
+    @property
+    def _of_model(self) -> Tuple[c.Model, int]:
+        return self._character.handle, self._number
+
     def __repr__(self) -> str:
         return f"<bendy.Constraint of joint {self.joint}: {self.model}>"
 
@@ -120,10 +134,6 @@ class Curve(Part, c.Curve):
 
     _kind = "curve"
 
-    def __init__(self, character: Character, clip: int, number: int) -> None:
-        super().__init__(character, clip, number)
-        self._clip = clip
-
     @property
     def kind(self) -> str:
         """The kind of the target: nothing, joint, material, mesh or texture."""
@@ -139,14 +149,25 @@ class Curve(Part, c.Curve):
     def values(self) -> Floats:
         """(K, components) float32, for cubic (K, 3, components)."""
         values = np.empty(_shape(self.keys, self.components, self.interpolation), np.float32)
-        c.get_curve_values(self._character.handle, self._clip, self._number, values)
+        c.get_curve_values(self._character.handle, *self._place, values)
         return read_only(values)
 
     def sample(self, seconds: float) -> Floats:
         """(components,) float32, fresh: the value at a time of the clip. Raises ValueError for NaN."""
         values = np.empty(self.components, np.float32)
-        c.sample_curve(self._character.handle, self._clip, self._number, seconds, values)
+        c.sample_curve(self._character.handle, *self._place, seconds, values)
         return values
+
+
+class FrameSequence(Part, c.FrameSequence):
+    """Whole shapes of a mesh that a clip plays one after another, as in Quake II models: `frames` of them, from frame `first` on. Frame 0
+    is the mesh itself, the others are its morph targets from Mesh.first_frame on. closed: the first one follows the last."""
+
+    _kind = "frame_sequence"
+
+    def mix(self, seconds: float) -> c.FrameMix:
+        """The frames around a time of the clip: left, right, and fraction, the weight of the right one. Raises ValueError for NaN."""
+        return c.mix_frames(self._character.handle, *self._place, seconds)
 
 
 class Clip(WithExtras, c.Clip):
@@ -195,6 +216,12 @@ class Clip(WithExtras, c.Clip):
         """Tuple of Marker, ascending by time."""
         count = c.marker_count(self._character.handle, self._number)
         return tuple(Marker(self._character, self._number, number) for number in range(count))
+
+    @property
+    def frame_sequences(self) -> Tuple[FrameSequence, ...]:
+        """Tuple of FrameSequence."""
+        count = c.frame_sequence_count(self._character.handle, self._number)
+        return tuple(FrameSequence(self._character, self._number, number) for number in range(count))
 
     @property
     def curves(self) -> Items[Curve]:

@@ -59,6 +59,8 @@ def _clock(character: Character, clip: int, mode: Optional[str], speed: float) -
 class Playback:
     """The clock of a clip. Time does not drift, however long it plays."""
 
+    follows: "bendy_playback"
+
     def __init__(self, clip: Clip, mode: Optional[str] = None, speed: float = 1.0) -> None:
         """At the clip's start. clip: a Clip. mode: once, repeat or ping_pong; None: as the clip says. speed: 1 is as authored, negative is
         backwards. Raises TypeError, ValueError."""
@@ -71,56 +73,23 @@ class Playback:
         """Advances by seconds times the speed; returns the PlayedInterval. Raises ValueError."""
         return c.playback_advance(self._handle, seconds, PlayedInterval(self._clip._character, self._clip.number))
 
-    def seek(self, seconds: float) -> None:
-        """Jumps to a time of the clip, clamped to it, and plays nothing. Raises ValueError."""
-        c.playback_seek(self._handle, seconds)
-
-    def seek_share(self, share: float) -> None:
-        """The same by the share of the length, 0 to 1: to keep a walk and a run in step."""
-        c.playback_seek_share(self._handle, share)
-
     @property
     def clip(self) -> Clip:
         """The Clip."""
         return self._clip
 
-    @property
-    def seconds(self) -> float:
-        """The current time on the clip's time line, as Pose.sample takes it."""
-        return c.get_playback(self._handle).seconds
 
-    @property
-    def share(self) -> float:
-        """The current time as a share of the length, 0 to 1."""
-        return c.get_playback(self._handle).share
+ease = c.ease
 
-    @property
-    def passes(self) -> int:
-        """Passes completed since the last seek; negative when played backwards."""
-        return c.get_playback(self._handle).passes
 
-    @property
-    def is_done(self) -> bool:
-        """Whether playback has stopped at the end that it was heading for: only in mode once."""
-        return c.get_playback(self._handle).is_done
+class Fade:
+    """A weight that moves towards another over time: of a layer, of an additive pose."""
 
-    @property
-    def speed(self) -> float:
-        """1: as authored; 0: paused; negative: backwards."""
-        return c.get_playback(self._handle).speed
+    follows: "bendy_fade"
 
-    @speed.setter
-    def speed(self, speed: float) -> None:
-        c.playback_set_speed(self._handle, speed)
-
-    @property
-    def mode(self) -> str:
-        """once, repeat or ping_pong; the current time is kept."""
-        return c.get_playback(self._handle).mode
-
-    @mode.setter
-    def mode(self, mode: str) -> None:
-        c.playback_set_mode(self._handle, mode)
+    def __init__(self, weight: float = 0.0) -> None:
+        """At this weight. Raises ValueError."""
+        self._handle = c.fade_new(weight)
 
 
 class Playing(c.Playing):

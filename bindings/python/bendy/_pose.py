@@ -62,23 +62,13 @@ class Pose:
     except reach."""
 
     __slots__ = ("__weakref__", "_character", "_handle", "_skinned")
+    follows: "bendy_pose"
 
     def __init__(self, model: Model) -> None:
         """At rest. Raises ValueError if the model is closed."""
         self._character: Character = model._get()
         self._handle: c.Pose = c.pose_new(self._character.handle)
         self._skinned: Any = None  # the last arguments of skin with `out`, checked
-
-    def sample(self, clip: Union[str, SupportsIndex, Clip], seconds: float) -> Pose:
-        """Sets the pose to a clip (its name, number or object) at a time on the clip's time line, held at the ends of the keys. What the
-        clip does not animate is at rest. Raises KeyError, IndexError, ValueError."""
-        c.sample(self._handle, self._character.find("clip", clip), seconds)
-        return self
-
-    def reset(self) -> Pose:
-        """Sets the rest pose."""
-        c.set_rest(self._handle)
-        return self
 
     def copy(self) -> Pose:
         """A copy of this pose."""
@@ -87,30 +77,6 @@ class Pose:
         return made
 
     __copy__ = copy
-
-    def _mask(self, mask: Optional[ArrayLike]) -> Optional[Floats]:
-        return None if mask is None else floats(mask, (self._character.joints,), "mask")
-
-    def blend(self, other: Pose, weight: float, mask: Optional[ArrayLike] = None) -> Pose:
-        """Blends towards another pose of the same opened model: weight 0 changes nothing, 1 makes it equal. `mask`, (J,) numbers, scales
-        the weight by joint: see Model.mask_below. Raises ValueError."""
-        c.blend(self._handle, other._handle, weight, self._mask(mask))
-        return self
-
-    def make_additive(self, reference: Pose) -> Pose:
-        """Turns the pose into its difference from the reference, for add. Raises ValueError."""
-        c.make_additive(self._handle, reference._handle)
-        return self
-
-    def add(self, difference: Pose, weight: float = 1.0, mask: Optional[ArrayLike] = None) -> Pose:
-        """Adds a difference, scaled by the weight. Raises ValueError."""
-        c.add(self._handle, difference._handle, weight, self._mask(mask))
-        return self
-
-    def constrain(self) -> Pose:
-        """Moves every joint into the range of its constraints."""
-        c.constrain(self._handle)
-        return self
 
     def reach(self, chain: Union[str, SupportsIndex, Chain], target: ArrayLike, *, rotation: Optional[ArrayLike] = None,
               **options: "bendy_reach_options") -> ReachResult:
@@ -135,11 +101,6 @@ class Pose:
             listed.append(c.ReachRequest(chain=number, position=position, rotation=wanted, options=taken))
             results.append(ReachResult(self._character, number, taken))
         return c.reach_chains(self._handle, listed, results)
-
-    def reach_all(self) -> Pose:
-        """Solves every chain that follows a target joint, by priority."""
-        c.reach_all(self._handle)
-        return self
 
     def skin(self, mesh: Union[None, str, SupportsIndex, Mesh] = None, *, normals: bool = False, tangents: bool = False,
              method: str = "linear", lod: Optional[Lod] = None, out: Any = None) -> Any:

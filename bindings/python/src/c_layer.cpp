@@ -277,6 +277,16 @@ Use::~Use() {
     --object_->uses;
 }
 
+const bendy_model* model_of(py::handle given) {
+    while (py::isinstance<Object>(given)) {
+        const auto* const object = given.cast<Object*>();
+        if (py::isinstance<Handle<bendy_model>>(given)) return static_cast<bendy_model*>(object->pointer);
+        if (object->keeps.empty()) return nullptr;
+        given = object->keeps.front();
+    }
+    return nullptr;
+}
+
 std::uint32_t index_argument(const py::handle& given, const char* name) {
     if (given.is_none()) return BENDY_NONE;
     return integer<std::uint32_t>(given, name);

@@ -205,6 +205,10 @@ private:
     }
 };
 
+/// Returns the model behind a handle: itself, or the first object that it keeps, or that object's; null if there is
+/// none.
+const bendy_model* model_of(py::handle given);
+
 /// For structs of the caller that refer to one.
 template <class H>
 void* handle_pointer(const py::handle& given) {
@@ -215,11 +219,17 @@ void* struct_pointer(const py::handle& given) {
     return py::isinstance<Of<S>>(given) ? static_cast<void*>(&given.cast<Of<S>*>()->value) : nullptr;
 }
 
-/// Wraps a new object. \param keeps  the objects that it may refer to
+/// Wraps a new object. \param keeps  the objects that it may refer to; a copy refers to what the original does
 template <class H>
 py::object own(H* made, std::initializer_list<py::object> keeps) {
     auto handle = std::make_unique<Handle<H>>(made, Handle<H>::kind);
-    handle->keeps = keeps;
+    for (const py::object& one : keeps) {
+        if (py::isinstance<Handle<H>>(one)) {
+            handle->keeps = one.cast<Handle<H>*>()->keeps;
+        } else {
+            handle->keeps.push_back(one);
+        }
+    }
     return py::cast(std::move(handle));
 }
 
@@ -244,7 +254,11 @@ public:
             throw py::type_error(std::string(name) + " must be numbers");
         }
         is_given_ = true;
-        if (count != 0 && size() != count)
+        if (count != 0) check_size(count, name);
+    }
+    /// Raises ValueError for another number of numbers, if any are given.
+    void check_size(std::size_t count, const char* name) const {
+        if (is_given_ && size() != count)
             throw py::value_error(std::string(name) + " must have the shape (" + std::to_string(count) + ",)");
     }
     [[nodiscard]] std::size_t size() const { return is_given_ ? static_cast<std::size_t>(array_.size()) : 0; }

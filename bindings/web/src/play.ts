@@ -1,11 +1,12 @@
 import type { Clip, Marker } from './clip.js';
 import { BendyError } from './errors.js';
-import { type BendyPlaybackInfo, type BendyPlaying, type Easing, type LoopMode, playedLayout } from './generated/bindings.js';
+import { type BendyPlaying, type Easing, playedLayout } from './generated/bindings.js';
+import { MadeFade, MadePlayback } from './generated/classes.js';
 import type { Key } from './items.js';
 import { loadedRuntime } from './load.js';
 import type { Model } from './model.js';
 import { Pose } from './pose.js';
-import { Handle, OfModel, type Runtime } from './runtime.js';
+import { OfModel, type Runtime } from './runtime.js';
 
 const mostMarkers = 128;
 
@@ -17,7 +18,7 @@ function markersPassed(model: Model, clip: Clip, played: number): Marker[] {
 }
 
 /** The clock of a clip: its current time and speed. Time does not drift, however long it plays. Calls do not allocate. */
-export class Playback extends OfModel {
+export class Playback extends MadePlayback {
   readonly clip: Clip;
   /** @internal The interval of the last `advance`, as a bendy_played. */
   readonly played: number;
@@ -31,63 +32,9 @@ export class Playback extends OfModel {
     this.played = this.runtime.struct(playedLayout, this.ownBytes(playedLayout.size));
   }
 
-  get #info(): BendyPlaybackInfo {
-    return this.runtime.calls.bendy_get_playback(this);
-  }
-
-  /** The current time on the clip's time line, as `Pose.sample` takes it. */
-  get seconds(): number {
-    return this.#info.seconds;
-  }
-
-  /** The current time as a fraction of the length, 0 to 1. */
-  get share(): number {
-    return this.#info.share;
-  }
-
-  /** Whether it has stopped at the end that it was heading for; only in mode `once`. */
-  get isDone(): boolean {
-    return this.#info.isDone;
-  }
-
-  /** The passes completed since the last seek, minus those undone backwards; 0 in mode `once`. */
-  get passes(): number {
-    return this.#info.passes;
-  }
-
-  /** 1: as authored; 0: paused; negative: backwards. Setting it throws BAD_ARGUMENT if it is not finite. */
-  get speed(): number {
-    return this.#info.speed;
-  }
-
-  set speed(speed: number) {
-    this.runtime.calls.bendy_playback_set_speed(this, speed);
-  }
-
-  /** The behaviour at the end of the clip. Setting it keeps the current time. */
-  get mode(): LoopMode {
-    return this.#info.mode;
-  }
-
-  set mode(mode: LoopMode) {
-    this.runtime.calls.bendy_playback_set_mode(this, mode);
-  }
-
   /** Advances by seconds times the speed. Throws BAD_ARGUMENT if they are not finite. */
   advance(seconds: number): this {
     this.runtime.calls.bendy_playback_advance(this, seconds, this.played);
-    return this;
-  }
-
-  /** Jumps to a time in seconds, clamped, without playing what lies between. */
-  seek(seconds: number): this {
-    this.runtime.calls.bendy_playback_seek(this, seconds);
-    return this;
-  }
-
-  /** Jumps to a fraction of the length. */
-  seekShare(share: number): this {
-    this.runtime.calls.bendy_playback_seek_share(this, share);
     return this;
   }
 
@@ -193,31 +140,9 @@ export function ease(easing: Easing, share: number): number {
 }
 
 /** A weight that moves towards another over time: of a layer, of an additive pose. Calls do not allocate. */
-export class Fade extends Handle {
+export class Fade extends MadeFade {
   /** Throws OUT_OF_MEMORY; BAD_ARGUMENT if the weight is not finite. */
   constructor(runtime: Runtime, weight: number) {
     super(runtime, runtime.calls.bendy_fade_new(weight), runtime.functions.bendy_fade_free);
-  }
-
-  /** Starts a fade from the current weight; immediate if seconds is not above 0. */
-  to(weight: number, seconds: number, easing: Easing = 'smooth'): this {
-    this.runtime.calls.bendy_fade_to(this, weight, seconds, easing);
-    return this;
-  }
-
-  /** Advances by seconds. */
-  advance(seconds: number): this {
-    this.runtime.calls.bendy_fade_advance(this, seconds);
-    return this;
-  }
-
-  /** The current weight. */
-  get weight(): number {
-    return this.runtime.calls.bendy_fade_weight(this);
-  }
-
-  /** Whether the weight has been reached. */
-  get isDone(): boolean {
-    return this.runtime.calls.bendy_fade_is_done(this) !== 0;
   }
 }

@@ -8,16 +8,16 @@ import {
   type BendySkinOptions,
   type BendySocket,
   readBendyTransform,
-  type SkinMethod,
   transformLayout,
   verticesLayout,
 } from './generated/bindings.js';
+import { MadePose } from './generated/classes.js';
 import type { Key } from './items.js';
 import type { LevelOfDetail } from './lod.js';
 import type { Mesh } from './mesh.js';
 import type { Model } from './model.js';
 import type { Chain, Joint, Transform } from './parts.js';
-import { type FloatBuffer, OfModel } from './runtime.js';
+import type { FloatBuffer } from './runtime.js';
 
 /** Options of `Pose.reach`. The chain gives the defaults. */
 export interface ReachOptions extends BendyReachOptions {
@@ -115,7 +115,7 @@ interface VertexBuffers {
  * the next time; `slice()` copies them. Only making a pose and its first `skin`, also the first with normals, tangents or dual
  * quaternions, allocate.
  */
-export class Pose extends OfModel {
+export class Pose extends MadePose {
   readonly #locals: FloatBuffer;
   readonly #matrices: FloatBuffer;
   readonly #weights: FloatBuffer;
@@ -144,24 +144,9 @@ export class Pose extends OfModel {
     this.#palettes = model.meshes.map((mesh) => this.ownFloats(16 * mesh.boneCount));
   }
 
-  /** Sets the pose to rest. */
-  reset(): this {
-    this.runtime.calls.bendy_set_rest(this);
-    return this;
-  }
-
   /** Returns a new pose that is equal to this one. Throws OUT_OF_MEMORY. */
   copy(): Pose {
     return new Pose(this.model, this);
-  }
-
-  /**
-   * Sets the pose to a clip at a time on the clip's time line, in seconds, clamped to its ends; see `Playback` for loops. Whatever
-   * the clip does not animate is set to rest. Throws NOT_FOUND; BAD_ARGUMENT for NaN, and for a clip of another model: see `Binding`.
-   */
-  sample(clip: Key<Clip>, seconds: number): this {
-    this.runtime.calls.bendy_sample(this, this.model.clips.number(clip), seconds);
-    return this;
   }
 
   /** As `sample`, for a clip of the model that a binding animates with. Throws NOT_FOUND, BAD_ARGUMENT. */
@@ -190,21 +175,9 @@ export class Pose extends OfModel {
     return this;
   }
 
-  /** Turns the pose into its difference from a reference, as an input for `add`. Throws BAD_ARGUMENT. */
-  makeAdditive(reference: Pose): this {
-    this.runtime.calls.bendy_make_additive(this, reference);
-    return this;
-  }
-
   /** Adds a difference that `makeAdditive` made, scaled by a weight and per joint by `mask`. Throws BAD_ARGUMENT. */
   add(difference: Pose, weight = 1, mask?: ArrayLike<number>): this {
     this.runtime.calls.bendy_add(this, difference, weight, this.#maskAt(mask));
-    return this;
-  }
-
-  /** Clamps every joint to its constraints. */
-  constrain(): this {
-    this.runtime.calls.bendy_constrain(this);
     return this;
   }
 
@@ -288,12 +261,6 @@ export class Pose extends OfModel {
     return this.runtime.calls.bendy_reach_chains(this, numbered).map(withReached);
   }
 
-  /** Solves every chain that follows a target joint, in order of priority. */
-  reachAll(): this {
-    this.runtime.calls.bendy_reach_all(this);
-    return this;
-  }
-
   /** Computes 16 floats per joint, column by column: from joint space to model space or, if `world` (16 floats) is given, to it. */
   modelMatrices(world?: ArrayLike<number>): Float32Array<ArrayBuffer> {
     this.runtime.calls.bendy_joint_matrices(this, 0, this.model.joints.length, world, this.#matrices.at);
@@ -336,12 +303,6 @@ export class Pose extends OfModel {
     runtime.calls.bendy_skin(this, { ...others, mesh: mesh?.number }, out);
     if (mesh === undefined) return (this.#skinned ??= new SkinnedVertices(this.#vertexBuffers(), 0, vertexCount));
     return (this.#skinnedMeshes[mesh.number] ??= new SkinnedVertices(this.#vertexBuffers(), first, count));
-  }
-
-  /** Allocates the additional memory that `skin` needs for a method, so that `skin` does not allocate. Throws OUT_OF_MEMORY. */
-  prepareSkin(method: SkinMethod): this {
-    this.runtime.calls.bendy_prepare_skin(this, method);
-    return this;
   }
 
   #vertexBuffers(): VertexBuffers {

@@ -1,12 +1,10 @@
-import type { Clip } from './clip.js';
 import type { BendyRootAxes, BendyRootMotion } from './generated/bindings.js';
+import { MadeRootPath } from './generated/classes.js';
 import type { Key } from './items.js';
 import { loadedRuntime } from './load.js';
 import type { Model } from './model.js';
 import type { Joint } from './parts.js';
 import type { CrossFade, Playback } from './play.js';
-import type { Pose } from './pose.js';
-import { OfModel } from './runtime.js';
 
 /** A rotation followed by a translation, in double precision. */
 export interface RootMotion extends BendyRootMotion {}
@@ -30,21 +28,11 @@ export function motionMatrix(motion: RootMotion): Float64Array {
 }
 
 /** The root motion of the joint that carries a character over the ground: a root joint, or the hips. */
-export class RootPath extends OfModel {
+export class RootPath extends MadeRootPath {
   /** Throws NOT_FOUND, BAD_ARGUMENT, OUT_OF_MEMORY. */
   constructor(model: Model, joint: Key<Joint>, axes: RootAxes = {}) {
     const { calls, functions } = model.runtime;
     super(model, calls.bendy_root_path_new(model, model.joints.number(joint), axes), functions.bendy_root_path_free);
-  }
-
-  /** Computes the motion from the root's rest pose to its position in a clip at a time, in model space. Throws NOT_FOUND, BAD_ARGUMENT. */
-  at(clip: Key<Clip>, seconds: number): RootMotion {
-    return this.runtime.calls.bendy_root_path_at(this, this.model.clips.number(clip), seconds);
-  }
-
-  /** Computes the motion from one time to another, in the axes that the character has at `from`. */
-  between(clip: Key<Clip>, from: number, to: number): RootMotion {
-    return this.runtime.calls.bendy_root_path_between(this, this.model.clips.number(clip), from, to);
   }
 
   /**
@@ -64,13 +52,5 @@ export class RootPath extends OfModel {
 
   #over(clip: number, played: number): RootMotion {
     return this.runtime.calls.bendy_root_path_over(this, clip, played);
-  }
-
-  /**
-   * Takes the motion out of a pose, and returns it: along the chosen axes the root is then at rest. Throws BAD_ARGUMENT for a pose
-   * of another model.
-   */
-  extract(pose: Pose): RootMotion {
-    return this.runtime.calls.bendy_root_path_extract(this, pose);
   }
 }
