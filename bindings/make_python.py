@@ -4,6 +4,7 @@
 make_python.py BENDY_H made SOURCE.cpp STUB.pyi    the module bendy._bendy.c, over bindings/python/src/c_layer.h, and its types
 make_python.py BENDY_H expand FROM.py TO.py        a file of the package: **options: "bendy_NAME" in a signature, its docstring and
                                                    the call below become the options, with their defaults, in the order of the struct;
+                                                   "convert_options" are those of `convert`;
                                                    follows: "bendy_HANDLE" in a class becomes what methods.py finds and it lacks
 
 A function becomes one of the same name, without bendy_: errors are exceptions; what the function fills is its result, and a struct
@@ -18,6 +19,7 @@ from keyword import iskeyword
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+import convert_options  # noqa: E402
 from describe import read  # noqa: E402
 from methods import Method, PARTS, class_of, documentation, follow, name_of  # noqa: E402
 
@@ -451,7 +453,11 @@ class Maker:
         return value.rstrip("f") if kind == "f32" else value
 
     def options(self, name):
-        """(name, type, default, help) of each option of a struct."""
+        """(name, type, default, help) of each option of a struct, or of `convert`."""
+        if name == "convert_options":
+            for name, _, default, _, text in convert_options.read():
+                yield name, None, default, convert_options.with_names(text, lambda found: found.replace("-", "_"))
+            return
         struct = self.api.structs[name]
         defaults = dict(zip((one.name for one in struct.fields), struct.defaults))
         for python, one, given in self.fields(struct):
@@ -467,17 +473,17 @@ class Maker:
         return self.expand_options(self.expand_classes(text))
 
     def expand_options(self, text):
-        """Replaces `**options: "bendy_NAME"` in a signature; in the function's docstring a line `**options`, and in its body `**options`
+        """Replaces `**options: "bendy_NAME"`, or "convert_options", in a signature; in the function's docstring a line `**options`, and in its body `**options`
         in a call."""
         pieces = re.split(r"(?=^ *def )", text, flags=re.MULTILINE)
         for place, piece in enumerate(pieces):
-            found = re.search(r"\*\*options: \"(bendy_\w+)\"", piece)
+            found = re.search(r"\*\*options: \"(\w+)\"", piece)
             if not found:
                 continue
             options = list(self.options(found[1]))
             before = piece[:found.start()]
             star = "" if re.search(r"\*[,\w]", before[before.index("("):]) else "*, "
-            signature = star + ", ".join(f"{name}: {kind} = {value}" for name, kind, value, _ in options)
+            signature = star + ", ".join(f"{name}: {kind} = {value}" if kind else f"{name}={value}" for name, kind, value, _ in options)
             column = len(before.rpartition("\n")[2])
             # Lines break between options.
             signature = textwrap.fill(re.sub(r"(?<!,) ", "\0", signature), 130 - column, break_long_words=False, break_on_hyphens=False)

@@ -37,6 +37,7 @@ fi
 tools=../../build/cross/web-tools/build/web/tools
 { echo '// @ts-nocheck'; cat "$tools/tools.js"; } >src/generated/tools_glue.ts
 node embed.mjs "$tools/tools.wasm" src/generated/tools.ts 900000
+python3 ../convert_options.py src/generated/convert_options.ts
 npm run --silent build
 npx --no-install tsc -p page
 "$BENDY_PROGRAM" convert ../../examples/mannequin.glb --rig page/example.rig.json --lod --quiet -o dist/example.bendy

@@ -30,7 +30,7 @@ def test_conversion_equals_the_programs(tmp_path, program, mannequin):
 def test_convert_takes_the_options_of_the_program():
     own = {"source", "output", "name", "jobs", "progress", "overwrite"}
     parameters = set(inspect.signature(bendy.convert).parameters)
-    assert parameters - own == set(bendy._bendy.convert_options()) - {"max_error"}, "compact=... is --max-error, too"
+    assert parameters - own == set(bendy._bendy.convert_options())
     for option in parameters:
         assert option in ("source", "overwrite") or f"{option}: " in bendy.convert.__doc__, f"{option} is not described"
     for option, value in (("skeleton", 3), ("compact", 0.1), ("lod", "no"), ("ticks_per_second", "x")):

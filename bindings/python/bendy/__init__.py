@@ -18,7 +18,6 @@ import html as _html
 import json as _json
 import math as _math
 import os as _os
-import textwrap as _textwrap
 from pathlib import Path as _Path
 
 import numpy as _np
@@ -296,17 +295,19 @@ def open(source, *, object=0, check_sums=True, copied=False, root=None):
     return model
 
 
-def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, skeleton="", compact=False, lod=False,
-            sort_vertices=False, images="embed", root=None, scene=None, instances=False, merge_clips=False, texture=None,
-            ticks_per_second=0.0, name="source.glb", jobs=0, progress=None, overwrite=False):
+def convert(source, output=None, *, name="source.glb", jobs=0, progress=None, overwrite=False,
+            **options: "convert_options"):
     """Converts glTF, X-files, Quake II models and bendy files to a bendy file, exactly unless compact. Returns a Conversion.
 
     output: the path to write; None: nothing is written, see File.save. name: of a source that is bytes, preceded by the folder of the
     files that it refers to; without a folder, only root counts. jobs: the most threads for making a compact file; 0: one per
     processor. progress: is called with the fraction done, 0 to 1, when the source is read, and while vertices are collapsed (lod)
-    and a compact file is made; an exception from it, or a KeyboardInterrupt, ends the conversion there. compact may also be the
-    largest error, "0.1mm" or "0.005%", and scene a number.
-    Raises ConversionError with the place in the source, FileNotFoundError, FileExistsError unless overwrite, ValueError.
+    and a compact file is made; an exception from it, or a KeyboardInterrupt, ends the conversion there. Raises ConversionError with
+    the place in the source, FileNotFoundError, FileExistsError unless overwrite, ValueError.
+
+    The options of `bendy convert`; compact may also be the largest error, "0.1mm" or "0.005%", and scene a number:
+
+    **options
     """
     given = dict(locals())
     if output is not None:
@@ -332,12 +333,6 @@ def convert(source, output=None, *, rig=None, auto_rig=False, auto_skin=False, s
         made.write(output)
         output = _Path(output)
     return Conversion(made, output, report, sources)
-
-
-if convert.__doc__:  # python -OO removes docstrings
-    convert.__doc__ += "\n    The options of `bendy convert`:\n" + "".join(
-        _textwrap.fill(f"{_name}: {_help}.", 120, initial_indent="    ", subsequent_indent="        ") + "\n"
-        for _name, _help in _bendy.convert_options().items() if _name != "max_error")
 
 
 def validate(source):

@@ -273,16 +273,6 @@ test('what is no bendy file is refused by name', async () => {
   await assert.rejects(tools.assemble('{"bendy": '), { kind: 'malformed', code: 'TEXT', path: /^\d+:\d+$/ });
 });
 
-test('convert takes the options of the program', () => {
-  const options = readFileSync(join(repository, 'tools/reports/convert_options.def'), 'utf8');
-  const names = [...options.matchAll(/^BENDY_CONVERT_OPTION\(\w+, (\w+),/gm)].map(([, name]) => name.replace(/_(\w)/g, (_, letter) => letter.toUpperCase()));
-  const types = readFileSync(join(repository, 'bindings/web/src/tools/types.ts'), 'utf8').match(/interface ConvertOptions \{(.*?)^\}/ms)[1];
-  const typed = [...types.matchAll(/^ {2}(\w+)\?:/gm)].map(([, name]) => name);
-  assert.ok(names.length > 10);
-  const own = ['main', 'progress']; // of the files, there are only those that are given; the largest error is that of `compact`
-  assert.deepEqual(typed.filter((name) => !own.includes(name)).sort(), names.filter((name) => !['root', 'maxError'].includes(name)).sort());
-});
-
 test('a wrong word of an option is refused', async () => {
   const source = read(join(repository, 'examples/tentacle.glb'));
   await assert.rejects(tools.convert(source, { images: 'embd' }), { code: 'BAD_ARGUMENT', message: 'images must be embed or link' });

@@ -1,39 +1,21 @@
+import type { ProgramOptions } from '../generated/convert_options.js';
+
 /** A file's content. */
 export type FileBytes = Uint8Array | ArrayBuffer;
 
 /** The input of `convert`: a file, or several by name, the main one and those that it refers to. */
 export type Source = FileBytes | Readonly<Record<string, FileBytes>>;
 
-/** The options of `bendy convert`, see docs/convert.md. */
-export interface ConvertOptions {
+/** The options of `bendy convert`, see docs/convert.md. Files are named as the source names them. */
+export interface ConvertOptions extends Omit<ProgramOptions, 'compact' | 'maxError' | 'rig' | 'root' | 'scene'> {
   /** The file to convert, if there are several; the first if not given. The name of a single file, for messages. */
   main?: string;
   /** Encode for size: true, or the largest error, "0.1mm" or "0.005%". */
   compact?: boolean | string;
-  /** Compute levels of detail. */
-  lod?: boolean;
-  /** Propose IK chains and constraints from names and shape. */
-  autoRig?: boolean;
-  /** Bind meshes without a skin to the nearest bones. */
-  autoSkin?: boolean;
-  /** For `autoSkin`, which it implies: only this joint and its descendants are bones. */
-  skeleton?: string;
   /** A rig file (spec/rig.md): its text, its bytes, or the object. */
   rig?: string | Uint8Array | object;
-  /** Put vertices that follow the same bones beside one another. */
-  sortVertices?: boolean;
-  /** "embed": copy images into the file; "link": keep them as URIs. "embed" if not given. */
-  images?: 'embed' | 'link';
   /** The name or number of a glTF file's scene. */
   scene?: string | number;
-  /** Make a joint and a mesh of every instance of EXT_mesh_gpu_instancing. */
-  instances?: boolean;
-  /** Make one clip of clips that move different joints. */
-  mergeClips?: boolean;
-  /** The skin image of a Quake II model: the name of one of the files. */
-  texture?: string;
-  /** Key time units per second, for an X-file that states none or a wrong number. */
-  ticksPerSecond?: number;
   /** Called from time to time with the fraction done, 0 to 1. An exception from it rejects the promise at the end. */
   progress?: (share: number) => void;
 }
