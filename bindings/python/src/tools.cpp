@@ -86,16 +86,12 @@ tools::ConvertArguments arguments_of(const py::dict& options) {
     return arguments;
 }
 
-/// Returns the help of each option, with options named as in Python.
-py::dict convert_options() {
+py::list convert_options() {
     const tools::ConvertArguments arguments;
-    py::dict options;
-    tools::visit_options(arguments, [&](const tools::ConvertOption& option, const auto&) {
-        const std::string help = option.full_help();
-        options[py::str(option.name.data(), option.name.size())] =
-            text(converter::with_option_names(help, converter::OptionStyle::python));
-    });
-    return options;
+    py::list names;
+    tools::visit_options(arguments,
+                         [&](const tools::ConvertOption& option, const auto&) { names.append(option.name); });
+    return names;
 }
 
 py::tuple convert_source(const std::filesystem::path& file, const SourcePointer& source,
@@ -421,7 +417,8 @@ py::tuple export_source(const SourcePointer& source, const std::string& format, 
 void bind_tools(py::module_& module) {
     module.def("convert", &convert_source, py::arg("file"), py::arg("source"), py::arg("output"), py::arg("options"),
                py::arg("jobs"), py::arg("progress"), "See bendy.convert.");
-    module.def("convert_options", &convert_options, "The options that decide which bytes convert makes: name -> help.");
+    module.def("convert_options", &convert_options,
+               "The names of the options that decide which bytes convert makes, as far as this build has them.");
     module.def(
         "format_named_by", [](const std::filesystem::path& file) { return text(tools::format_named_by(file)); },
         py::arg("file"), "The format that a file's suffix means, as \"binary glTF\"; empty if it has no meaning.");
