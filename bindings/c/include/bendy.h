@@ -731,8 +731,8 @@ BENDY_API void bendy_pose_free(bendy_pose* pose); /* does nothing for NULL */
 BENDY_API bendy_status bendy_set_rest(bendy_pose* pose, bendy_error* error); /* sets the rest pose; elsewhere: reset */
 
 /* Sets the pose to a clip at `seconds` on the clip's time line (bendy_clip.start to end). Whatever the clip does not
- * animate is set to rest. Times outside are clamped to the ends: the caller wraps time for clips that loop. NaN is
- * an error. */
+ * animate is set to rest. Times outside are clamped to the ends; for clips that loop, bendy_playback has the time. NaN
+ * is an error. */
 BENDY_API bendy_status bendy_sample(bendy_pose* pose, uint32_t clip, float seconds /* not NaN */, bendy_error* error);
 
 /* Blends `pose` towards `other`, a pose of the same model: weight 0 leaves it unchanged, 1 makes it equal to
