@@ -20,7 +20,7 @@ A comment names figures in the text that a command prints; each must be in what 
 
     <!-- printed by: bendy convert mannequin.glb | 351,344 bytes | 65 -->
 
-Such a comment may be folded into several lines.
+Such a comment may be folded into several lines. Its command finds the project's files in $SOURCE.
 
 A block without a language, or an indented one, is a fault: nothing hides.
 """
@@ -114,7 +114,8 @@ class Runner:
         self.parts = []  # of functions, compiled at the end of the page
         self.environment = {**os.environ, "PATH": f"{Path(options.bendy).parent}:{os.environ['PATH']}",
                             "LIBGL_ALWAYS_SOFTWARE": "1",
-                            "PYTHONPATH": str(Path(options.source) / "examples/python")}
+                            "PYTHONPATH": str(Path(options.source) / "examples/python"),
+                            "SOURCE": str(Path(options.source).resolve()), "PYTHONDONTWRITEBYTECODE": "1"}
         self.printed = None
 
     def fault(self, block, what):
@@ -166,6 +167,8 @@ class Runner:
     def check_figures(self, page, text):
         """Checks that the figures in a page's comments are in the page, and in what their commands print."""
         said = " ".join(re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL).split())
+        if len(FIGURES.findall(text)) != text.count("<!-- printed by:"):
+            self.fault(page, "a comment about figures is not of the form COMMAND | FIGURE ...")
         for found in FIGURES.finditer(text):
             place = f"{page}:{text.count(chr(10), 0, found.start()) + 1}"
             command, *figures = " ".join(found[0][len("<!-- printed by:"):-len("-->")].split()).split(" | ")
