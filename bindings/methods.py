@@ -54,7 +54,8 @@ def bare(name):
 
 def name_of(function, handle):
     elsewhere = re.search(r"elsewhere: (\w+)", function.doc)
-    return elsewhere[1] if elsewhere else bare(function.name).removeprefix(bare(handle) + "_" if handle else "")
+    name, prefix = bare(function.name), bare(handle or "bendy_") + "_"
+    return elsewhere[1] if elsewhere else name[len(prefix):] if name.startswith(prefix) else name
 
 
 def class_of(function, api):
