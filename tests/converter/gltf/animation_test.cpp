@@ -131,6 +131,24 @@ TEST(GltfAnimation, ChannelsWithoutANodeOfTheSceneAreCounted) {
     EXPECT_TRUE(import->clips[1].tracks.empty());
 }
 
+TEST(GltfAnimation, ChannelsWithoutANodeDoNotMoveTheOthers) {
+    Gltf gltf = make_triangle();
+    const std::size_t input = gltf.add_accessor<float>({0}, "SCALAR");
+    gltf.add_animation(0, "translation", input, gltf.add_accessor<float>({1, 1, 1}, "VEC3"));
+    Json& animation = gltf.json["animations"][0];
+    animation["samplers"].push_back({{"input", input}, {"output", gltf.add_accessor<float>({2, 2, 2}, "VEC3")}});
+    const Json last = {{"sampler", 1}, {"target", {{"node", 0}, {"path", "scale"}}}};
+    const Json without = {{"sampler", 0}, {"target", {{"path", "rotation"}}}};
+    animation["channels"] = {without, animation["channels"][0], without, last};
+    const Import import = gltf.import();
+    EXPECT_EQ(import.warned("without a target node"), 2u);
+    ASSERT_EQ(import->clips.at(0).tracks.size(), 2u);
+    EXPECT_EQ(import->clips[0].tracks[0].path, TrackPath::translation);
+    EXPECT_EQ(import->clips[0].tracks[0].values, (std::vector<float>{1, 1, 1}));
+    EXPECT_EQ(import->clips[0].tracks[1].path, TrackPath::scale);
+    EXPECT_EQ(import->clips[0].tracks[1].values, (std::vector<float>{2, 2, 2}));
+}
+
 TEST(GltfAnimation, OfTwoChannelsForOneTargetTheLastIsTaken) {
     Gltf gltf = make_triangle();
     const std::size_t input = gltf.add_accessor<float>({0}, "SCALAR");

@@ -79,7 +79,7 @@ private:
 };
 
 /// A source file, opened and checked; all parts of the importer read from it. The structure comes from `model`;
-/// extensions, extras, images and the indices of primitives from `json`, which has the same element indices.
+/// extensions, extras and images from `json`, which has the same element indices.
 struct Document {
     NamedFiles& files;
     const Json& json;

@@ -29,7 +29,7 @@ void charge_elements(const Json& root, Budget& budget) {
 
 Scene import(std::vector<std::byte> bytes, ReadableFolders folders, const GltfOptions& options, Report& report) {
     const Container container = open_container(std::move(bytes));
-    const Json root = parse_json(container.json, options.instances, report);
+    Json root = parse_json(container.json, options.instances, report);
     Budget budget;
     budget.add_source(container.bytes.size());
     charge_elements(root, budget);

@@ -286,17 +286,16 @@ private:
 };
 
 /// The sequence of vertices that a primitive uses.
-std::vector<std::uint32_t> read_sequence(const Document& document, const Json& json, std::size_t vertex_count,
-                                         bool is_list, const std::string& place) {
-    const Json* indices_json = find(json, "indices");
-    if (indices_json == nullptr) {
+std::vector<std::uint32_t> read_sequence(const Document& document, int indices, std::size_t vertex_count, bool is_list,
+                                         const std::string& place) {
+    if (indices < 0) {
         document.budget.take(vertex_count, sizeof(std::uint32_t), place);
         std::vector<std::uint32_t> sequence(vertex_count);
         for (std::size_t i = 0; i < vertex_count; ++i) sequence[i] = static_cast<std::uint32_t>(i);
         return sequence;
     }
     const std::string here = place + ".indices";
-    const auto index = indices_json->get<std::size_t>();
+    const auto index = static_cast<std::size_t>(indices);
     const auto& accessor = document.model.accessors[index];
     const int type = accessor.componentType;
     if (accessor.type != TINYGLTF_TYPE_SCALAR ||
@@ -375,7 +374,7 @@ Submesh read_submesh(const Document& document, const tinygltf::Primitive& primit
     }
     const int mode = primitive.mode;
     const bool is_list = mode == TINYGLTF_MODE_POINTS || mode == TINYGLTF_MODE_LINE || mode == TINYGLTF_MODE_TRIANGLES;
-    std::vector<std::uint32_t> sequence = read_sequence(document, json, vertex_count, is_list, place);
+    std::vector<std::uint32_t> sequence = read_sequence(document, primitive.indices, vertex_count, is_list, place);
     const std::size_t n = sequence.size();
     if (!is_list) document.budget.take(n, 3 * sizeof(std::uint32_t), place);
     std::size_t unused = 0;  // vertices of incomplete primitives

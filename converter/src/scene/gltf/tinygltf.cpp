@@ -8,28 +8,89 @@
 
 #include "scene/failure.h"
 
-#include <limits>
-#include <new>
+#include <cstddef>
 #include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace bendy::converter::gltf {
 namespace {
 
-// NOLINTNEXTLINE(misc-no-recursion): the nesting of parsed JSON is bounded
-Json without_extensions(const Json& source) {
-    if (source.is_array()) {
-        Json copy = Json::array();
-        for (const Json& element : source) copy.push_back(without_extensions(element));
-        return copy;
+/// Holds the `extensions` and `extras` of objects while tinygltf reads these, and puts them back in the end. tinygltf
+/// would copy them, and takes 152 bytes for each value.
+class SetAside {
+public:
+    SetAside() = default;
+    SetAside(const SetAside&) = delete;
+    SetAside(SetAside&&) = delete;
+    SetAside& operator=(const SetAside&) = delete;
+    SetAside& operator=(SetAside&&) = delete;
+    ~SetAside() {
+        for (Member& member : members_) member.owner->insert(std::move(member.node));
     }
-    if (!source.is_object()) return source;
-    Json copy = Json::object();
-    for (auto member = source.begin(); member != source.end(); ++member) {
-        if (member.key() != "extensions" && member.key() != "extras") {
-            copy.emplace(member.key(), without_extensions(member.value()));
+
+    /// Takes them out of all objects below `array`.
+    void take_from(Json& array) {
+        std::vector<Json*> pending{&array};
+        while (!pending.empty()) {
+            Json& value = *pending.back();
+            pending.pop_back();
+            if (value.is_object()) take_members(value.get_ref<Json::object_t&>());
+            for (Json& inner : value) {
+                if (inner.is_structured()) pending.push_back(&inner);
+            }
         }
     }
-    return copy;
+
+private:
+    struct Member {
+        Json::object_t* owner;
+        Json::object_t::node_type node;
+    };
+
+    void take_members(Json::object_t& object) {
+        for (const char* name : {"extensions", "extras"}) {
+            if (const auto member = object.find(name); member != object.end())
+                members_.push_back({&object, object.extract(member)});
+        }
+    }
+
+    std::vector<Member> members_;
+};
+
+/// Calls one of tinygltf's readers. In version 2.9 some of them have two more parameters: for warnings, and for how
+/// strict to be.
+template <class Read, class Element, class... Context>
+bool call(Read read, Element& element, std::string& error, const Json& json, Context... context) {
+    if constexpr (std::is_invocable_v<Read, Element*, Context..., std::string*, const Json&, bool>) {
+        return read(&element, context..., &error, json, false);
+    } else {
+        std::string warning;
+        return read(&element, context..., &error, &warning, json, false, {});
+    }
+}
+
+/// Reads every element of an array of the root.
+template <class Element, class Read, class... Context>
+void read_all(std::vector<Element>& elements, const Json& root, const char* name, Read read, Context... context) {
+    const Json& array = array_of(root, name);
+    elements.resize(array.size());
+    for (std::size_t i = 0; i < array.size(); ++i) {
+        std::string error;
+        if (!call(read, elements[i], error, array[i], context...))
+            fail(at(name, i), "tinygltf: " + error.substr(0, error.find('\n')));
+    }
+}
+
+bool read_scene(tinygltf::Scene* scene, std::string* error, const Json& json, bool /*keep_text*/) {
+    tinygltf::ParseStringProperty(&scene->name, error, json, "name", false);
+    tinygltf::ParseIntegerArrayProperty(&scene->nodes, error, json, "nodes", false);
+    return true;
+}
+
+bool read_texture(tinygltf::Texture* texture, std::string* error, const Json& json, bool keep_text) {
+    return tinygltf::ParseTexture(texture, error, json, keep_text, {});
 }
 
 void expect_same_size(std::size_t read, const Json& source, const std::string& place) {
@@ -38,55 +99,55 @@ void expect_same_size(std::size_t read, const Json& source, const std::string& p
     }
 }
 
+/// Adds the channels without a target node, which tinygltf 2.7 leaves out.
+void complete_channels(std::vector<tinygltf::AnimationChannel>& channels, const Json& source,
+                       const std::string& place) {
+    if (channels.size() == source.size()) return;
+    std::vector<tinygltf::AnimationChannel> all;
+    all.reserve(source.size());
+    auto next = channels.begin();
+    for (const Json& channel : source) {
+        const Json& target = channel["target"];
+        if (!target.contains("node")) {
+            all.emplace_back();
+            all.back().sampler = channel["sampler"].get<int>();
+            all.back().target_path = target["path"].get<std::string>();
+        } else if (next != channels.end()) {
+            all.push_back(std::move(*next++));
+        }
+    }
+    channels = std::move(all);
+    expect_same_size(channels.size(), source, place);
+}
+
 }  // namespace
 
-tinygltf::Model read_structure(const Json& root) {
-    Json prepared = Json::object();
-    prepared["asset"]["version"] = "2.0";  // Json's list constructor leaks if memory runs out
-    for (const char* key : {"accessors", "animations", "materials", "meshes", "nodes", "samplers", "scene", "scenes",
-                            "skins", "textures"}) {
-        if (const Json* member = find(root, key); member != nullptr) prepared[key] = without_extensions(*member);
+tinygltf::Model read_structure(Json& root) {
+    SetAside set_aside;
+    for (const char* name :
+         {"accessors", "animations", "materials", "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
+        if (const auto array = root.find(name); array != root.end()) set_aside.take_from(*array);
     }
-    if (const auto meshes = prepared.find("meshes"); meshes != prepared.end()) {
-        for (Json& mesh : *meshes) {
-            for (Json& primitive : mesh["primitives"]) primitive.erase("indices");
-        }
-    }
-    if (const auto animations = prepared.find("animations"); animations != prepared.end()) {
-        for (Json& animation : *animations) {
-            for (Json& channel : animation["channels"]) channel["target"].emplace("node", -1);
-        }
-    }
-    const std::string text = prepared.dump();
-    if (text.size() > std::numeric_limits<unsigned>::max()) fail({}, "the JSON is too large");
 
     tinygltf::Model model;
-    std::string error;
-    std::string warning;
-    tinygltf::TinyGLTF loader;
-    if (!loader.LoadASCIIFromString(&model, &error, &warning, text.c_str(), static_cast<unsigned>(text.size()), "",
-                                    tinygltf::NO_REQUIRE)) {
-        const std::string first_line = error.substr(0, error.find('\n'));
-        if (first_line == std::bad_alloc().what()) throw std::bad_alloc();  // it catches every exception from parsing
-        fail({}, "tinygltf: " + first_line);
-    }
-    expect_same_size(model.accessors.size(), array_of(root, "accessors"), "accessors");
-    expect_same_size(model.materials.size(), array_of(root, "materials"), "materials");
-    expect_same_size(model.nodes.size(), array_of(root, "nodes"), "nodes");
-    expect_same_size(model.samplers.size(), array_of(root, "samplers"), "samplers");
-    expect_same_size(model.scenes.size(), array_of(root, "scenes"), "scenes");
-    expect_same_size(model.skins.size(), array_of(root, "skins"), "skins");
-    expect_same_size(model.textures.size(), array_of(root, "textures"), "textures");
-    expect_same_size(model.meshes.size(), array_of(root, "meshes"), "meshes");
+    read_all(model.accessors, root, "accessors", tinygltf::ParseAccessor);
+    read_all(model.animations, root, "animations", tinygltf::ParseAnimation);
+    read_all(model.materials, root, "materials", tinygltf::ParseMaterial);
+    read_all(model.meshes, root, "meshes", tinygltf::ParseMesh, &model);
+    read_all(model.nodes, root, "nodes", tinygltf::ParseNode);
+    read_all(model.samplers, root, "samplers", tinygltf::ParseSampler);
+    read_all(model.scenes, root, "scenes", read_scene);
+    read_all(model.skins, root, "skins", tinygltf::ParseSkin);
+    read_all(model.textures, root, "textures", read_texture);
+    if (const Json* scene = find(root, "scene"); scene != nullptr) model.defaultScene = scene->get<int>();
+
     for (std::size_t i = 0; i < model.meshes.size(); ++i) {
         expect_same_size(model.meshes[i].primitives.size(), root["meshes"][i]["primitives"],
                          at("meshes", i) + ".primitives");
     }
-    expect_same_size(model.animations.size(), array_of(root, "animations"), "animations");
     for (std::size_t i = 0; i < model.animations.size(); ++i) {
-        const Json& animation = root["animations"][i];
-        expect_same_size(model.animations[i].channels.size(), animation["channels"], at("animations", i) + ".channels");
-        expect_same_size(model.animations[i].samplers.size(), animation["samplers"], at("animations", i) + ".samplers");
+        complete_channels(model.animations[i].channels, root["animations"][i]["channels"],
+                          at("animations", i) + ".channels");
     }
     return model;
 }

@@ -11,11 +11,10 @@
 
 namespace bendy::converter::gltf {
 
-/// Lets tinygltf read the structure of checked JSON. It gets no buffers, images, cameras or extensions, so it opens no
-/// file, decodes nothing and cannot reject what it does not know; the importer reads those from the JSON. Two things
-/// differ from the JSON on purpose: `indices` of primitives are left out (tinygltf rejects accessors without a view
-/// there), and a channel without a target node has target_node -1 (tinygltf would drop it). Elements keep their
-/// indices.
-tinygltf::Model read_structure(const Json& root);
+/// Lets tinygltf's readers fill its structs from JSON that parse_json has checked. They get no buffers, images,
+/// cameras, extensions and extras, so they open no file and decode nothing; the importer reads those from the JSON.
+/// Elements keep their indices, and a channel without a target node has target_node -1. `root` is changed while this
+/// runs; afterwards it is as before.
+tinygltf::Model read_structure(Json& root);
 
 }  // namespace bendy::converter::gltf
