@@ -7,6 +7,7 @@
 #include "play/unpack.h"
 
 #include <bendy/converter/import.h>
+#include <bendy/runtime/kernels.h>
 
 #include <benchmark/benchmark.h>
 
@@ -34,7 +35,8 @@ PackedView view_of(Bytes payload, std::size_t joints) {
     return *read_packed(payload, static_cast<std::uint32_t>(joints), 0, faults);
 }
 
-void decode(benchmark::State& state, const Clip& clip, Unpack* unpack, Order order) {
+void decode(benchmark::State& state, const Clip& clip, Kernel kernel, Order order) {
+    (void)set_kernel(kernel);
     constexpr std::size_t kCold = 64u << 20;  // bytes
     const std::size_t copies =
         order == Order::cold ? std::clamp<std::size_t>(kCold / clip.payload.size(), 64, 16384) : 1;
@@ -55,8 +57,7 @@ void decode(benchmark::State& state, const Clip& clip, Unpack* unpack, Order ord
             order == Order::next_frame ? static_cast<double>(k % 60) / 60.0 : (random >> 8) / 16777216.0;
         times[k] = static_cast<float>(view.record.start + length * share);
     }
-    const std::vector<JointBlock> rest = to_blocks(clip.rest);
-    const std::vector<JointBlock>& start = unpack == unpack_plain ? rest : plans.front().start;
+    const std::vector<JointBlock>& start = plans.front().start;
     std::vector<JointBlock> local(start.size());
     std::size_t k = 0;
     while (state.KeepRunning()) {
@@ -95,20 +96,20 @@ int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     for (int a = 1; a < argc; ++a) {
         for (const Clip& clip : clips_of(argv[a])) {
-            const auto add = [&](const char* kernel, [[maybe_unused]] Unpack* unpack) {
+            const auto add = [&](Kernel kernel) {
                 constexpr std::pair<const char*, Order> kOrders[] = {
                     {"next", Order::next_frame}, {"random", Order::random}, {"cold", Order::cold}};
                 for (const auto& [name, order] : kOrders) {
-                    const std::string title = clip.name + '/' + kernel + '/' + name;
+                    const std::string title = clip.name + '/' + std::string(kernel_name(kernel)) + '/' + name;
 #ifndef __clang_analyzer__  // reports a leak, although the library's list frees the benchmarks
-                    benchmark::RegisterBenchmark(title.c_str(), [clip, unpack, order = order](benchmark::State& state) {
-                        decode(state, clip, unpack, order);
+                    benchmark::RegisterBenchmark(title.c_str(), [clip, kernel, order = order](benchmark::State& state) {
+                        decode(state, clip, kernel, order);
                     });
 #endif
                 }
             };
-            add("plain", unpack_plain);
-            add("best", unpack);
+            add(Kernel::plain);
+            add(kernels().front());
         }
     }
     benchmark::RunSpecifiedBenchmarks();

@@ -1,5 +1,6 @@
 #include <bendy/format/packed_clip.h>
 
+#include <bendy/format/slerp.h>
 #include <bendy/format/trig.h>
 
 #include "packed_layout.h"
@@ -39,18 +40,9 @@ Quaternion product(const Quaternion& a, const Quaternion& b) {
 Quaternion slerp(const Quaternion& a, const Quaternion& b, double u) {
     double dot = 0.0;
     for (std::size_t c = 0; c < 4; ++c) dot += a[c] * b[c];
-    const double sign = dot < 0.0 ? -1.0 : 1.0;
-    const double angle = trig::acos(std::abs(dot));
-    double weight_a = 1.0 - u;
-    double weight_b = u;
-    constexpr double kStraight = 1e-6;  // below it sin(angle) is angle and slerp is linear
-    if (angle >= kStraight) {
-        const double sine = trig::sin_cos(angle).sin;
-        weight_a = trig::sin_cos(angle * (1.0 - u)).sin / sine;
-        weight_b = trig::sin_cos(angle * u).sin / sine;
-    }
+    const SlerpWeights weights = slerp_weights(dot, u);
     Quaternion q;
-    for (std::size_t c = 0; c < 4; ++c) q[c] = weight_a * a[c] + sign * weight_b * b[c];
+    for (std::size_t c = 0; c < 4; ++c) q[c] = weights.first * a[c] + weights.second * b[c];
     return normalised(q);
 }
 

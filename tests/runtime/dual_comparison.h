@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/plain.h"
+#include "runtime/dual_in_doubles.h"
 #include "runtime/skin_comparison.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-// A kernel for dual quaternions against the plain way, for tests here and on other processors: no GoogleTest, no
+// A kernel for dual quaternions against doubles, for tests here and on other processors: no GoogleTest, no
 // exceptions.
 namespace bendy::test {
 
@@ -93,7 +93,7 @@ inline DualErrors dual_errors_of(RandomBlock& random, bool is_stretched, DualKer
     const RandomDuals duals(is_stretched, static_cast<unsigned>(random.block.vertices));
     SkinBlock plain = random.block;
     Output expected(plain, positions, normals, tangents);
-    dual_plain(plain, duals.motions, kScale, is_stretched);
+    dual_in_doubles(plain, duals.motions, kScale, is_stretched);
     DualBlock block{random.block, duals.rounded.data(), kScale};
     block.vertices.palette = is_stretched ? duals.stretches.data() : nullptr;
     Output found(block.vertices, positions, normals, tangents);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "plan/blocks.h"
+#include "runtime/skin_in_doubles.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
@@ -14,7 +15,7 @@
 #include <random>
 #include <vector>
 
-// A kernel against the plain one, for tests here and on other processors: no GoogleTest, no exceptions.
+// A kernel against doubles, for tests here and on other processors: no GoogleTest, no exceptions.
 namespace bendy::test {
 
 inline constexpr float kUntouched = -77.0f;
@@ -170,7 +171,7 @@ inline SkinErrors errors_of(RandomBlock& random, SkinKernel* kernel, std::size_t
                             std::size_t tangents) {
     SkinBlock plain = random.block;
     Output expected(plain, positions, normals, tangents);
-    skin_plain(plain);
+    skin_in_doubles(plain);
     SkinBlock block = random.block;
     Output found(block, positions, normals, tangents);
     kernel(block);

@@ -38,7 +38,7 @@ void compare(RandomBlock& random, const Tried& kernel, std::size_t positions, st
                                     << (errors.has_strayed ? ", and memory of others written" : "");
 }
 
-TEST(SkinKernels, AllAgreeWithThePlainOneWhateverTheCounts) {
+TEST(SkinKernels, AllAgreeWithDoublesWhateverTheCounts) {
     for (const Tried& kernel : tried_kernels()) {
         for (const std::size_t vertices : {0u, 1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 12u, 15u, 16u, 17u, 31u, 64u, 101u}) {
             for (std::size_t influences = 1; influences <= 10; ++influences) {

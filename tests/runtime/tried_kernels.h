@@ -1,7 +1,6 @@
 #pragma once
 
 #include "kernels/kernel_table.h"
-#include "kernels/plain.h"
 
 #include <bendy/runtime/kernels.h>
 
@@ -16,16 +15,15 @@ namespace test {
 struct Tried {
     std::string name;
     SkinKernel* linear;
-    DualKernel* dual;  ///< null for the plain one: see dual_plain
+    DualKernel* dual;
 };
 
-/// All that this machine has, the plain one too.
+/// All that this machine has.
 inline std::vector<Tried> tried_kernels() {
     std::vector<Tried> all;
     for (const Kernel kernel : kernels()) {
-        const KernelTable* const table = kernel_table(kernel);
-        all.push_back({std::string(kernel_name(kernel)), table == nullptr ? skin_plain : table->skin,
-                       table == nullptr ? nullptr : table->dual});
+        const KernelTable& table = kernel_table(kernel);
+        all.push_back({std::string(kernel_name(kernel)), table.skin, table.dual});
     }
     return all;
 }

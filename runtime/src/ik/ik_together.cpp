@@ -47,7 +47,7 @@ public:
         const std::size_t count = std::exchange(count_, 0);
         if (count == 1) return solve_alone(limbs_[0].request, limbs_[0].number);
         if (count == 0) return;
-        kernels_->two_bones(block_);
+        kernels_.two_bones(block_);
         for (std::size_t k = 0; k < count; ++k) {
             if (!set_limb(k)) solve_alone(limbs_[k].request, limbs_[k].number);
         }
@@ -65,7 +65,7 @@ private:
     /// Adds a request to those that are solved side by side, if possible.
     bool add_limb(const ReachRequest& request, std::size_t number) {
         if constexpr (!kSolvesLimbsTogether) return false;
-        if (kernels_ == nullptr || kernels_->two_bones == nullptr || count_ == kLimbs) return false;
+        if (kernels_.two_bones == nullptr || count_ == kLimbs) return false;
         const auto& [chain, target, options] = request;
         if (!PoseState::of(pose_).data->check(chain) || options.carry_target || !is_finite(target) ||
             !is_plain_limb(*chain, target, pose_, options)) {
@@ -112,7 +112,7 @@ private:
     Pose& pose_;
     std::span<ReachResult> results_;
     std::span<const std::uint32_t> ends_;
-    const KernelTable* kernels_;
+    const KernelTable& kernels_;
     TwoBoneBlock block_{};
     std::array<Limb, kLimbs> limbs_{};  ///< of `block_`
     std::size_t count_ = 0;

@@ -1,4 +1,6 @@
-// All kernels of an instruction set and their table, included after lanes_*.h and read_*.h by one source for each.
+// All kernels of an instruction set and their table, included after lanes_*.h and read_*.h by one source for each,
+// which also defines kFlushesDenormals, kTwoBones, and kHasForms: code of their own for the attributes that are usually
+// wanted.
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
@@ -16,8 +18,8 @@
 #include "dual_lanes.h"
 
 constexpr KernelTable kTable{
-    .skin = skin_lanes,
-    .dual = dual_lanes,
+    .skin = kHasForms ? skin_lanes : skin_as<AnyForm>,
+    .dual = kHasForms ? dual_lanes : dual_as<AnyForm>,
     .pose = pose_lanes,
     .pose_subtree = pose_subtree_lanes,
     .palette = palette_lanes,
@@ -31,6 +33,7 @@ constexpr KernelTable kTable{
     .mix = blend_lanes<mix_joints>,
     .add = blend_lanes<add_joints>,
     .two_bones = kTwoBones,
+    .flushes_denormals = kFlushesDenormals,
 };
 
 // NOLINTEND(misc-definitions-in-headers)

@@ -15,6 +15,8 @@ namespace bendy {
 namespace with_avx2 {
 namespace {
 
+constexpr bool kHasForms = true;
+constexpr bool kFlushesDenormals = true;
 constexpr void (*kTwoBones)(TwoBoneBlock&) = two_bones_avx2;
 
 #include "lanes_avx2.h"

@@ -1,12 +1,12 @@
 // The implementation of the blending kernels, included after lanes.h by one source for each instruction set, which also
-// defines inverse_roots_of(Lanes) and, on x86-64, guess_inverse_roots(Lanes).
+// defines inverse_roots_of(Lanes) and, with BENDY_LANES_OF_X86, guess_inverse_roots(Lanes).
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
 /// 1 / sqrt. Without the root and the division, which blending would wait for: from a guess within 4 %, one step of
 /// Newton's method and one of Halley's, to 1.5 units in the last place.
 inline Lanes quick_inverse_roots_of(Lanes squares) {
-#if defined(BENDY_X86_64)
+#if defined(BENDY_LANES_OF_X86)
     const Lanes guess = guess_inverse_roots(squares);
     const Lanes better = guess * (1.5f - 0.5f * squares * guess * guess);
     const Lanes error = 1.0f - squares * better * better;

@@ -16,7 +16,7 @@ struct KernelTable {
     /// Within 8 units in the last place of the largest product that contributes to a number (relative to unit length,
     /// for normals and tangents that do not cancel).
     SkinKernel* skin;
-    DualKernel* dual;                      ///< the same; the plain version is dual_plain
+    DualKernel* dual;                      ///< the same
     void (*pose)(const PoseBlock& block);  ///< local_to_model
     /// The same for some joints, whose parents are among them or have their matrices in model space; the same bits.
     void (*pose_subtree)(const PoseBlock& block, std::uint32_t first, std::uint32_t end);
@@ -25,7 +25,7 @@ struct KernelTable {
     void (*palettes)(const PalettesBlock& block);    ///< the same bits as `palette`
     void (*sample)(const SampleBlock& block);        ///< slerp of rotations along the shorter arc; lerp of vectors
     void (*sample_cubic)(const SampleBlock& block);  ///< cubic Hermite splines, rotations normalised
-    /// Each component of a rotation is within 2e-6 of the plain decoder's.
+    /// Each component of a rotation is within 2e-6.
     void (*unpack)(const UnpackBlock& block);
     /// Both: within two units in the last place of the largest number that goes into one.
     void (*decode_boxed)(const BoxedBlock& block);
@@ -34,6 +34,7 @@ struct KernelTable {
     void (*add)(const BlendBlock& block);  ///< adds the other pose, which is a difference
     /// The same bits as one limb alone; null: limbs are solved one by one.
     void (*two_bones)(TwoBoneBlock& block);
+    bool flushes_denormals;  ///< treats denormal numbers as zero: see FlushDenormals
 };
 
 /// Whether any kernel has two_bones; otherwise the code that leads to it need not be built.
@@ -46,11 +47,12 @@ inline constexpr bool kSolvesLimbsTogether = false;
 /// Solves limbs without regard to limits.
 void two_bones_avx2(TwoBoneBlock& block);
 
-/// Returns the functions of one of kernels(); null for the plain one, which computes in double precision.
-const KernelTable* kernel_table(Kernel kernel);
+/// Returns the functions of one of kernels().
+const KernelTable& kernel_table(Kernel kernel);
 /// Returns those of the kernel in use.
-const KernelTable* kernel_table();
+const KernelTable& kernel_table();
 
+extern const KernelTable kPlainTable;
 extern const KernelTable kSse4Table;
 extern const KernelTable kAvx2Table;
 extern const KernelTable kNeonTable;

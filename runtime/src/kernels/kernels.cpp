@@ -72,26 +72,28 @@ Result<void, CallError> set_kernel(Kernel kernel) {
     return {};
 }
 
-const KernelTable* kernel_table(Kernel kernel) {
+const KernelTable& kernel_table(Kernel kernel) {
     switch (kernel) {
 #if defined(BENDY_X86_64)
         case Kernel::sse4:
-            return &kSse4Table;
+            return kSse4Table;
         case Kernel::avx2:
-            return &kAvx2Table;
+            return kAvx2Table;
 #elif defined(BENDY_ARM64)
         case Kernel::neon:
-            return &kNeonTable;
+            return kNeonTable;
 #elif defined(BENDY_WASM_SIMD)
-        case Kernel::wasm:
-            return &kWasmTable;
-#endif
         default:
-            return nullptr;
+            return kWasmTable;  // plain, too: it rounds in the same way, and modules are small
+#endif
+#if !defined(BENDY_WASM_SIMD)
+        default:
+            return kPlainTable;
+#endif
     }
 }
 
-const KernelTable* kernel_table() {
+const KernelTable& kernel_table() {
     return kernel_table(kernel());
 }
 

@@ -2,6 +2,9 @@
 // lanes_avx2.h.
 
 // NOLINTBEGIN(portability-simd-intrinsics,misc-definitions-in-headers): this is the purpose of the file
+#undef BENDY_LANES_OF_X86
+#define BENDY_LANES_OF_X86  // there are stream, prefetch and guess_inverse_roots
+
 struct Quad {
     __m128 v;
 

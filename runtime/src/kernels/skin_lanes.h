@@ -113,7 +113,7 @@ BENDY_ALWAYS_INLINE void finish(const Moved* moved, const SkinBlock& block, std:
     }
 }
 
-#if defined(BENDY_X86_64)  // others write through the caches
+#if defined(BENDY_LANES_OF_X86)  // others write through the caches
 
 /// Prefetches the input of a group in the chunk after the next one. The processor does that by itself, but not across
 /// pages.
@@ -137,7 +137,7 @@ BENDY_ALWAYS_INLINE void transform(const SkinBlock& block, std::size_t vertex, s
     Moved moved[kChunk / kLanes];
     if constexpr (F::wanted == 0) std::memset(&moved, 0, sizeof moved);
     for (std::size_t k = 0; k < count; k += kLanes) {
-#if defined(BENDY_X86_64)
+#if defined(BENDY_LANES_OF_X86)
         if constexpr (F::streams) fetch_ahead<F>(block, vertex + k);
 #endif
         move<F>(matrix_of(vertex + k), block, vertex + k, moved[k / kLanes]);
@@ -410,7 +410,7 @@ void skin_as(const SkinBlock& block) {
 inline bool is_packed(const SkinOutput& out, std::size_t numbers) {
     return out.data == nullptr || out.stride == numbers;
 }
-#if defined(BENDY_X86_64)
+#if defined(BENDY_LANES_OF_X86)
 inline bool is_aligned(const SkinOutput& out) {
     return reinterpret_cast<std::uintptr_t>(out.data) % 16 == 0;
 }
@@ -435,7 +435,7 @@ void skin_lanes(const SkinBlock& block) {
                        (block.out_tangents.data != nullptr ? 4 : 0);
     if (!is_packed(block.out_positions, 3) || !is_packed(block.out_normals, 3) || !is_packed(block.out_tangents, 4))
         return skin_as<AnyForm>(block);
-#if defined(BENDY_X86_64)
+#if defined(BENDY_LANES_OF_X86)
     if (block.streams && is_aligned(block.out_positions) && is_aligned(block.out_normals) &&
         is_aligned(block.out_tangents)) {
         skin_packed<true>(block, wanted);

@@ -15,6 +15,8 @@ namespace bendy {
 namespace with_sse4 {
 namespace {
 
+constexpr bool kHasForms = true;
+constexpr bool kFlushesDenormals = true;
 constexpr void (*kTwoBones)(TwoBoneBlock&) = nullptr;
 
 #include "lanes_sse4.h"

@@ -15,6 +15,8 @@ namespace bendy {
 namespace with_wasm {
 namespace {
 
+constexpr bool kHasForms = true;
+constexpr bool kFlushesDenormals = false;
 constexpr void (*kTwoBones)(TwoBoneBlock&) = nullptr;
 
 #include "lanes_wasm.h"

@@ -169,18 +169,4 @@ void set_unpacked(const PackedGroup& group, std::uint32_t track, double u, Joint
     }
 }
 
-void unpack_plain(const UnpackPlan& plan, float seconds, std::size_t joints, std::span<JointBlock> local) {
-    const PackedView& packed = *plan.packed;
-    if (packed.record.joints > joints) return;
-    const PackedMoment moment = packed_moment(packed, seconds);
-    PackedGroupReader reader(packed, moment.frame);
-    for (PackedGroup group; reader.next(group);) {
-        for (std::uint32_t track = 0; track < group.count; ++track) {
-            JointTransform joint = joint_in(local, group.joints[track]);
-            set_unpacked(group, track, moment.fraction, joint);
-            set_joint_in(local, group.joints[track], joint);
-        }
-    }
-}
-
 }  // namespace bendy

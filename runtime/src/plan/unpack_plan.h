@@ -10,8 +10,7 @@
 #include <span>
 #include <vector>
 
-// Data for playing a packed clip on a model that is the same for all frames: built once, when the model is opened. The
-// plain decoder needs none of it.
+// Data for playing a packed clip on a model that is the same for all frames: built once, when the model is opened.
 namespace bendy {
 
 /// PackedSegment, and the location of its windows.
@@ -36,17 +35,7 @@ struct UnpackPlan {
 /// \param rest    of the joints, as many as `packed` was read for
 UnpackPlan make_unpack_plan(const PackedView& packed, std::span<const JointTransform> rest);
 
-/// Sets the properties that the tracks animate to their values at `seconds`. Does nothing if the tracks are of a model
-/// with more joints.
-/// \param joints  in `local`
-/// \param local   UnpackPlan::start; for the plain decoder, at rest where a track animates
-using Unpack = void(const UnpackPlan& plan, float seconds, std::size_t joints, std::span<JointBlock> local);
-
-/// In double precision, on any machine: the definition of a packed clip's content, and the reference for the kernels.
-/// Uses only `packed` of the plan.
-Unpack unpack_plain;
-
-/// Sets one track's value at a joint that is at rest, like the plain decoder.
+/// Sets one track's value at a joint that is at rest, in double precision.
 /// \param u  [0, 1), from the group's left numbers to its right ones
 void set_unpacked(const PackedGroup& group, std::uint32_t track, double u, JointTransform& joint);
 

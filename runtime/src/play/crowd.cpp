@@ -83,7 +83,7 @@ Result<void, CallError> Crowd::write(const CrowdMember& member, std::size_t work
     if (member.palette.empty()) return result;
     if (member.palette.size() < palette_size()) return CallError::output_too_short;
     Batch& batch = batches_[worker];
-    if (is_skinned || model_space_.empty() || kernel_table() == nullptr) {
+    if (is_skinned || model_space_.empty()) {
         write_palette(pose, member.palette.data());
         return result;
     }
@@ -99,8 +99,7 @@ void Crowd::write_batch(std::size_t worker) {
     constexpr std::size_t kFew = 2;  // faster one by one
     Batch& batch = batches_[worker];
     const std::size_t count = std::exchange(batch.count, 0);
-    const KernelTable* const kernels = kernel_table();
-    if (count <= kFew || kernels == nullptr) {
+    if (count <= kFew) {
         for (std::size_t k = 0; k < count; ++k) {
             PoseState& state = PoseState::of(poses_[worker]);
             state.stale.mark_all();
@@ -117,8 +116,9 @@ void Crowd::write_batch(std::size_t worker) {
         block.local[k] = &locals_[worker * kAtOnce + member].front().rotation[0][0];
         batch.palettes[k] = batch.palettes[member];
     }
-    const FlushDenormals flush;
-    kernels->poses(block);
+    const KernelTable& kernels = kernel_table();
+    const FlushDenormals flush(kernels.flushes_denormals);
+    kernels.poses(block);
     each_palette(model_, first_entry_, [&](std::uint32_t number, const Mesh& mesh, std::size_t first) {
         PalettesBlock palettes{1, matrices, nullptr, nullptr, {}};
         for (std::size_t k = 0; k < kAtOnce; ++k) palettes.palette[k] = batch.palettes[k] + first;
@@ -133,7 +133,7 @@ void Crowd::write_batch(std::size_t worker) {
             for (PaletteMatrix* const palette : palettes.palette) *palette = to_rows(glm::mat4(1.0f));
             return;
         }
-        kernels->palettes(palettes);
+        kernels.palettes(palettes);
     });
 }
 

@@ -1,5 +1,5 @@
 #include <bendy/format/find_key.h>
-#include <bendy/format/trig.h>
+#include <bendy/format/slerp.h>
 #include <bendy/runtime/sample.h>
 
 #include "kernels/flush_denormals.h"
@@ -43,52 +43,11 @@ Interval frame_interval(const TrackView& track, const Clip& clip, float seconds)
     return {left, left + 1, frame - whole, 1.0 / clip.frame_rate};
 }
 
-// sin(u angle) / sin(angle) for an angle with cosine 1 - `away`, by the series in Eberly, A Fast and Accurate Algorithm
-// for Computing SLERP (2011). Within 1e-11 for `away` below kNear.
-constexpr double kNear = 0.15;
-constexpr int kTerms = 8;
-struct SlerpTerms {
-    std::array<double, kTerms> flat{}, curved{};  // i / (2i + 1) and 1 / (i (2i + 1)), i from 1
-};
-constexpr SlerpTerms make_terms() {
-    SlerpTerms terms;
-    for (std::size_t k = 0; k < terms.flat.size(); ++k) {
-        const double i = static_cast<double>(k) + 1.0;
-        terms.flat[k] = i / (2.0 * i + 1.0);
-        terms.curved[k] = 1.0 / (i * (2.0 * i + 1.0));
-    }
-    return terms;
-}
-constexpr SlerpTerms kSlerp = make_terms();
-
-double slerp_weight(double u, double away) {
-    const double square = u * u;
-    double sum = 1.0;
-    for (std::size_t k = kTerms; k-- > 0;) sum = 1.0 + sum * (away * (kSlerp.flat[k] - kSlerp.curved[k] * square));
-    return u * sum;
-}
-
 void slerp(std::span<const float> a, std::span<const float> b, double u, std::span<float> out) {
     double dot = 0.0;
     for (std::size_t c = 0; c < 4; ++c) dot += double{a[c]} * b[c];
-    const double sign = dot < 0.0 ? -1.0 : 1.0;
-    const double away = 1.0 - std::abs(dot);
-    if (away >= 0.0 && away < kNear) {  // all but the fastest rotations between two keys
-        const double by_a = slerp_weight(1.0 - u, away);
-        const double by_b = sign * slerp_weight(u, away);
-        for (std::size_t c = 0; c < 4; ++c) out[c] = static_cast<float>(by_a * a[c] + by_b * b[c]);
-        return;
-    }
-    const double angle = trig::acos(std::abs(dot));
-    double weight_a = 1.0 - u;
-    double weight_b = u;
-    constexpr double kStraight = 1e-6;  // below it sin(angle) is angle and slerp is linear
-    if (angle >= kStraight) {
-        const double sine = trig::sin_cos(angle).sin;
-        weight_a = trig::sin_cos(angle * (1.0 - u)).sin / sine;
-        weight_b = trig::sin_cos(angle * u).sin / sine;
-    }
-    for (std::size_t c = 0; c < 4; ++c) out[c] = static_cast<float>(weight_a * a[c] + sign * weight_b * b[c]);
+    const SlerpWeights weights = slerp_weights(dot, u);
+    for (std::size_t c = 0; c < 4; ++c) out[c] = static_cast<float>(weights.first * a[c] + weights.second * b[c]);
 }
 
 void hermite(std::span<const float> left, std::span<const float> right, const Interval& at, std::span<float> out) {
@@ -195,25 +154,16 @@ public:
           weights_(pose.change_morph_weights()) {}
 
     void run() const {
-        if (const KernelTable* const kernels = kernel_table()) {
-            run_plan(model_.pose_plan->clips[number_], *kernels);
-        } else {
-            state_.set_rest();
-            sample_plays();
-            sample_tracks();
-            if (clip_.packed) unpack_plain({&*clip_.packed, {}, {}, {}, {}, {}}, seconds_, joints(), state_.local);
-        }
-    }
-
-private:
-    void run_plan(const SamplePlan& plan, const KernelTable& kernels) const {
-        const FlushDenormals flush;
+        const SamplePlan& plan = model_.pose_plan->clips[number_];
+        const KernelTable& kernels = kernel_table();
+        const FlushDenormals flush(kernels.flushes_denormals);
         state_.set_start(clip_.packed ? plan.packed.start : plan.start.empty() ? model_.pose_plan->rest : plan.start);
         sample_plays();
         for (const SampleLine& line : plan.lines) sample_line(line, kernels);
         if (clip_.packed) unpack(plan.packed, seconds_, joints(), state_.local);
     }
 
+private:
     [[nodiscard]] std::size_t joints() const { return model_.joints.size(); }
 
     void sample_plays() const {
@@ -229,18 +179,6 @@ private:
         };
         add(mix.left, 1.0f - mix.fraction);
         add(mix.right, mix.fraction);
-    }
-
-    void sample_tracks() const {
-        // Neighbouring tracks usually have the same times.
-        const TrackView* same = nullptr;
-        Interval at;
-        for (const TrackView& track : clip_.tracks) {
-            if (same == nullptr || track.times.data() != same->times.data() || track.keys != same->keys)
-                at = find_interval(track, clip_, seconds_);
-            same = &track;
-            sample_one(track, at);
-        }
     }
 
     void sample_line(const SampleLine& line, const KernelTable& kernels) const {

@@ -39,10 +39,8 @@ UnpackBlock block_at(const UnpackPlan& plan, float seconds, float* floats) {
 }  // namespace
 
 void unpack(const UnpackPlan& plan, float seconds, std::size_t joints, std::span<JointBlock> local) {
-    const KernelTable* const kernels = kernel_table();
-    if (kernels == nullptr) return unpack_plain(plan, seconds, joints, local);
     if (plan.packed->record.joints > joints || plan.groups.empty()) return;
-    kernels->unpack(block_at(plan, seconds, &local.front().rotation[0][0]));
+    kernel_table().unpack(block_at(plan, seconds, &local.front().rotation[0][0]));
 }
 
 }  // namespace bendy

@@ -17,39 +17,15 @@ Result<void, CallError> check_blend(const Pose& pose, const Pose& other, float w
     return {};
 }
 
-BlendBlock block_of(PoseState& pose, const PoseState& other, float weight, std::span<const float> mask) {
-    return {pose.joint_count(), &pose.local.front().rotation[0][0], &other.local.front().rotation[0][0], weight,
-            mask.empty() ? nullptr : mask.data()};
-}
-
-/// Returns towards * weight + q * (1 - weight), along the shorter arc.
-glm::dquat mix(const glm::dquat& q, const glm::dquat& towards, double weight) {
-    const glm::dquat sum = q * (1.0 - weight) + towards * (glm::dot(q, towards) < 0.0 ? -weight : weight);
-    return glm::normalize(sum);
-}
-
-void mix_plain(const BlendBlock& block, PoseState& pose, const PoseState& other) {
-    for (std::uint32_t joint = 0; joint < block.joints; ++joint) {
-        const double weight = double{block.weight} * (block.mask == nullptr ? 1.0f : block.mask[joint]);
-        JointTransform to = pose.local_of(joint);
-        const JointTransform from = other.local_of(joint);
-        to.rotation = mix(glm::dquat(to.rotation), glm::dquat(from.rotation), weight);
-        to.translation = (1.0 - weight) * glm::dvec3(to.translation) + weight * glm::dvec3(from.translation);
-        to.scale = (1.0 - weight) * glm::dvec3(to.scale) + weight * glm::dvec3(from.scale);
-        pose.set_local(joint, to);
-    }
-}
-
-void add_plain(const BlendBlock& block, PoseState& pose, const PoseState& difference) {
-    for (std::uint32_t joint = 0; joint < block.joints; ++joint) {
-        const double weight = double{block.weight} * (block.mask == nullptr ? 1.0f : block.mask[joint]);
-        JointTransform to = pose.local_of(joint);
-        const JointTransform from = difference.local_of(joint);
-        to.rotation = glm::dquat(to.rotation) * mix(glm::dquat(1, 0, 0, 0), glm::dquat(from.rotation), weight);
-        to.translation = glm::dvec3(to.translation) + weight * glm::dvec3(from.translation);
-        to.scale = glm::dvec3(to.scale) * ((1.0 - weight) + weight * glm::dvec3(from.scale));
-        pose.set_local(joint, to);
-    }
+/// Blends the joints, if there are any, by one of the kernel's functions.
+void blend_joints(void (*KernelTable::*how)(const BlendBlock& block), PoseState& pose, const PoseState& other,
+                  float weight, std::span<const float> mask) {
+    pose.stale.mark_all();
+    if (pose.local.empty()) return;
+    const KernelTable& kernels = kernel_table();
+    const FlushDenormals flush(kernels.flushes_denormals);
+    (kernels.*how)({pose.joint_count(), &pose.local.front().rotation[0][0], &other.local.front().rotation[0][0], weight,
+                    mask.empty() ? nullptr : mask.data()});
 }
 
 }  // namespace
@@ -59,16 +35,7 @@ Result<void, CallError> blend(Pose& pose, const Pose& other, float weight, std::
     const std::span<float> targets = pose.change_morph_weights();
     const std::span<const float> others = other.morph_weights();
     for (std::size_t k = 0; k < targets.size(); ++k) targets[k] = (1.0f - weight) * targets[k] + weight * others[k];
-    PoseState& state = PoseState::of(pose);
-    state.stale.mark_all();
-    if (state.local.empty()) return {};
-    const BlendBlock block = block_of(state, PoseState::of(other), weight, mask);
-    if (const KernelTable* kernels = kernel_table()) {
-        const FlushDenormals flush;
-        kernels->mix(block);
-    } else {
-        mix_plain(block, state, PoseState::of(other));
-    }
+    blend_joints(&KernelTable::mix, PoseState::of(pose), PoseState::of(other), weight, mask);
     return {};
 }
 
@@ -94,16 +61,7 @@ Result<void, CallError> add(Pose& pose, const Pose& difference, float weight, st
     const std::span<float> targets = pose.change_morph_weights();
     const std::span<const float> others = difference.morph_weights();
     for (std::size_t k = 0; k < targets.size(); ++k) targets[k] += weight * others[k];
-    PoseState& state = PoseState::of(pose);
-    state.stale.mark_all();
-    if (state.local.empty()) return {};
-    const BlendBlock block = block_of(state, PoseState::of(difference), weight, mask);
-    if (const KernelTable* kernels = kernel_table()) {
-        const FlushDenormals flush;
-        kernels->add(block);
-    } else {
-        add_plain(block, state, PoseState::of(difference));
-    }
+    blend_joints(&KernelTable::add, PoseState::of(pose), PoseState::of(difference), weight, mask);
     return {};
 }
 

@@ -13,10 +13,7 @@
 namespace bendy {
 void PoseState::find_model_space() {
     palette_mesh = kNone;
-    const KernelTable* const kernels = kernel_table();  // once, since another thread may choose another one
-    const bool was_exact = is_exact;
-    is_exact = kernels == nullptr || !data->pose_plan->fits_floats;
-    if (is_exact != was_exact) stale.mark_all();  // another kernel is in use
+    const KernelTable& kernels = kernel_table();  // once, since another thread may choose another one
     std::uint32_t changed = 0;
     for (const StaleJoints::Subtree& subtree : stale.subtrees()) changed += subtree.end - subtree.joint;
     if (stale.are_all() || changed > joint_count() / 2) {
@@ -27,16 +24,16 @@ void PoseState::find_model_space() {
     stale.clear();
 }
 
-void PoseState::find_subtree(const StaleJoints::Subtree& subtree, const KernelTable* kernels) {
+void PoseState::find_subtree(const StaleJoints::Subtree& subtree, const KernelTable& kernels) {
     if (joint_count() == 0) return;
     if (is_exact) return find_exactly(subtree);
-    const FlushDenormals flush;
+    const FlushDenormals flush(kernels.flushes_denormals);
     const PoseBlock block{joint_count(), &local.front().rotation[0][0], data->parents.data(),
                           data->pose_plan->order.data(), &model_space.front().matrix[0].x};
     if (subtree.end - subtree.joint == joint_count()) {
-        kernels->pose(block);
+        kernels.pose(block);
     } else {
-        kernels->pose_subtree(block, subtree.joint, subtree.end);
+        kernels.pose_subtree(block, subtree.joint, subtree.end);
     }
 }
 
@@ -82,11 +79,11 @@ void PoseState::write_palette(std::uint32_t mesh, std::span<PaletteMatrix> out) 
 bool PoseState::compute_palette(std::uint32_t mesh, PaletteMatrix* out) const {
     const PaletteView& bind = data->object.meshes[mesh].palette;
     if (bind.joints.empty()) return true;
-    const KernelTable* const kernels = kernel_table();
-    if (kernels != nullptr && !is_exact) {
+    if (!is_exact) {
+        const KernelTable& kernels = kernel_table();
         const std::vector<PaletteMatrix>& inverse_bind = data->pose_plan->inverse_bind[mesh];
-        const FlushDenormals flush;
-        return kernels->palette(
+        const FlushDenormals flush(kernels.flushes_denormals);
+        return kernels.palette(
             {bind.joints.size(), &model_space.front().matrix[0].x, bind.joints.data(), inverse_bind.data(), out});
     }
     const auto inverse_bind = bind.inverse_bind();
@@ -99,10 +96,9 @@ bool PoseState::compute_palette(std::uint32_t mesh, PaletteMatrix* out) const {
     return are_finite;
 }
 
-bool PoseState::make_rigid_palette(std::uint32_t joint) {
+void PoseState::make_rigid_palette(std::uint32_t joint) {
     palette_mesh = kNone;
     palette.front() = to_rows(exact_matrix(joint));
-    return is_finite(palette.front());
 }
 
 Socket make_socket(const Model& model, std::string_view joint, const glm::mat4& offset) {

@@ -217,8 +217,7 @@ template <class Vector>
 void decode_any(const StreamView& stream, std::size_t first, std::span<Vector> out) {
     if (out.empty()) return;
     const StreamView part = part_of(stream, first, out.size());
-    const KernelTable* const kernels = kernel_table();
-    if (kernels == nullptr || !decode_with(*kernels, part, out)) part.decode(out);
+    if (!decode_with(kernel_table(), part, out)) part.decode(out);
 }
 
 }  // namespace

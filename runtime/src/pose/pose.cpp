@@ -10,12 +10,13 @@ namespace bendy {
 PoseState::PoseState(const Model& from)
     : model(from),
       data(&ModelData::of(model)),
-      exact_model_space(data->joints.size()),
       morph_weights(from.morph_target_count()),
       active_targets(data->most_targets),
       ik_links(data->longest_chain),
       palette(std::max(data->largest_palette, 1u)) {
     data->make_plans();
+    is_exact = !data->pose_plan->fits_floats;
+    if (is_exact) exact_model_space.resize(data->joints.size());
     local.resize(data->pose_plan->rest.size());
     model_space.resize(local.size() * JointBlock::kJoints);
     set_rest();

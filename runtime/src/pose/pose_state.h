@@ -5,7 +5,6 @@
 
 #include "active_target.h"
 #include "ik_link.h"
-#include "kernels/plain.h"
 #include "model/model_data.h"
 #include "plan/blocks.h"
 #include "plan/layout.h"
@@ -30,13 +29,11 @@ struct DualMotions {
 
     std::vector<glm::dvec3> places;  ///< for each palette entry, the joint's position in mesh space at bind time
     std::vector<std::uint32_t> first_place;  ///< for each mesh, index into places
-    std::vector<StretchedMotion> motions;    ///< of the mesh that is being skinned, by palette entry
-    std::vector<DualMotion> kernel_motions;
-    std::vector<PaletteMatrix> kernel_stretches;
+    std::vector<DualMotion> motions;         ///< of the mesh that is being skinned, by palette entry
+    std::vector<PaletteMatrix> stretches;    ///< before them
     double scale = 1.0;
     bool is_stretched = false;
-    bool are_good = false;    ///< all of `motions` are finite
-    bool has_kernel = false;  ///< kernel_motions correspond to `motions`
+    bool are_good = false;  ///< all of `motions` are finite
 };
 
 /// The data of a Pose. Two of them never share a cache line, since each is written by its own thread.
@@ -84,9 +81,8 @@ struct alignas(64) PoseState {
     bool make_palette(std::uint32_t mesh);
     /// Writes the palette of a skinned mesh elsewhere, one matrix for each of its entries. The pose must not be stale.
     void write_palette(std::uint32_t mesh, std::span<PaletteMatrix> out) const;
-    /// Sets `palette` for vertices moved by one joint. Returns whether all numbers are finite. The pose must not be
-    /// stale.
-    bool make_rigid_palette(std::uint32_t joint);
+    /// Sets `palette` for vertices moved by one joint. The pose must not be stale.
+    void make_rigid_palette(std::uint32_t joint);
 
     Model model;
     const ModelData* data;  ///< of `model`
@@ -99,13 +95,13 @@ struct alignas(64) PoseState {
     std::vector<PaletteMatrix> palette;        ///< of the mesh that is being skinned; never empty
     std::uint32_t palette_mesh = kNone;        ///< whose palette is
     bool is_palette_finite = false;
-    bool is_exact = true;  ///< in doubles, so that rounding does not accumulate along deep chains
-    StaleJoints stale;     ///< whose matrices in model_space do not have the local transforms' latest changes
+    bool is_exact;      ///< in doubles, since floats would lose digits of this model's poses: see PosePlan::fits_floats
+    StaleJoints stale;  ///< whose matrices in model_space do not have the local transforms' latest changes
     std::optional<DualMotions> dual;  ///< set once the pose has been skinned by dual quaternions
 
 private:
     void find_model_space();
-    void find_subtree(const StaleJoints::Subtree& subtree, const KernelTable* kernels);
+    void find_subtree(const StaleJoints::Subtree& subtree, const KernelTable& kernels);
     void find_exactly(const StaleJoints::Subtree& subtree);
     /// Returns whether all numbers are finite.
     bool compute_palette(std::uint32_t mesh, PaletteMatrix* out) const;

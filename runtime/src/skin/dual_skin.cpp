@@ -1,7 +1,6 @@
 #include "dual_skin.h"
 
 #include "kernels/kernel_table.h"
-#include "kernels/plain.h"
 #include "math/rigid_part.h"
 #include "staging.h"
 
@@ -66,75 +65,71 @@ glm::dvec3 place_of(const glm::mat4& inverse_bind) {
     return is_good ? place : glm::dvec3(0.0);
 }
 
-StretchedMotion motion_of(const glm::dmat4& matrix, const glm::dvec3& place) {
-    const glm::dmat3 linear(matrix);
-    // A mirrored joint is treated as a rotation with a negative stretch.
-    const glm::dmat3 turn = nearest_rotation_matrix(glm::determinant(linear) < 0.0 ? -linear : linear);
-    StretchedMotion motion;
-    motion.stretch = glm::transpose(turn) * linear;
-    motion.shift = place - motion.stretch * place;
-    motion.real = glm::normalize(glm::quat_cast(turn));
-    const glm::dvec3 translation = glm::dvec3(matrix * glm::dvec4(place, 1.0)) - motion.real * place;
-    motion.dual = 0.5 * (glm::dquat(0.0, translation) * motion.real);
-    return motion;
-}
-
-/// Converts the first motions to the kernels' layout; returns false if not all are finite as floats.
-bool round_motions(std::size_t count, DualMotions& dual) {
-    float sum = 0.0f;  // a finite number times 0 is 0
-    const auto put = [&sum](float& to, double number) {
-        to = static_cast<float>(number);
-        sum += 0.0f * to;
-    };
-    const auto put_quaternion = [&put](float(&to)[4], const glm::dquat& q) {
-        put(to[0], q.x);
-        put(to[1], q.y);
-        put(to[2], q.z);
-        put(to[3], q.w);
-    };
-    for (std::size_t entry = 0; entry < count; ++entry) {
-        const StretchedMotion& motion = dual.motions[entry];
-        put_quaternion(dual.kernel_motions[entry].real, motion.real);
-        put_quaternion(dual.kernel_motions[entry].dual, motion.dual);
-        if (!dual.is_stretched) continue;
-        PaletteMatrix& stretch = dual.kernel_stretches[entry];
+/// Converts motions to the kernels' layout.
+class MotionWriter {
+public:
+    /// Splits a palette entry, without the common scale, into a stretch and a rigid motion after it.
+    /// \param place  of the joint, in mesh space
+    void put(const glm::dmat4& matrix, const glm::dvec3& place, DualMotion& motion, PaletteMatrix& stretches) {
+        const glm::dmat3 linear(matrix);
+        // A mirrored joint is treated as a rotation with a negative stretch.
+        const glm::dmat3 turn = nearest_rotation_matrix(glm::determinant(linear) < 0.0 ? -linear : linear);
+        const glm::dquat real = glm::normalize(glm::quat_cast(turn));
+        const glm::dvec3 translation = glm::dvec3(matrix * glm::dvec4(place, 1.0)) - real * place;
+        put(real, motion.real);
+        put(0.5 * (glm::dquat(0.0, translation) * real), motion.dual);
+        const glm::dmat3 stretch = glm::transpose(turn) * linear;
+        const glm::dvec3 shift = place - stretch * place;
         for (int row = 0; row < 3; ++row) {
-            for (int c = 0; c < 3; ++c) put(stretch.rows[row][c], motion.stretch[c][row]);
-            put(stretch.rows[row][3], motion.shift[row]);
+            for (int c = 0; c < 3; ++c) put(stretch[c][row], stretches.rows[row][c]);
+            put(shift[row], stretches.rows[row][3]);
         }
+        constexpr double kStretched = 2e-6;  // more than rounding does to a rotation
+        is_stretched_ = is_stretched_ || largest(stretch - glm::dmat3(1.0)) > kStretched;
     }
-    return sum == 0.0f;
-}
+    [[nodiscard]] bool is_stretched() const { return is_stretched_; }
+    [[nodiscard]] bool are_finite() const { return sum_ == 0.0f; }
+
+private:
+    void put(double number, float& to) {
+        to = static_cast<float>(number);
+        sum_ += 0.0f * to;
+    }
+    void put(const glm::dquat& q, float (&to)[4]) {
+        put(q.x, to[0]);
+        put(q.y, to[1]);
+        put(q.z, to[2]);
+        put(q.w, to[3]);
+    }
+
+    float sum_ = 0.0f;  ///< a finite number times 0 is 0
+    bool is_stretched_ = false;
+};
 
 /// Computes the motions from the palette, unless it is not finite.
 void find_motions(PoseState& state, std::uint32_t mesh, DualMotions& dual) {
     dual.are_good = false;
     const auto& joints = state.data->object.meshes[mesh].palette.joints;
-    if (joints.empty()) return;
-    state.make_palette(mesh);
+    if (joints.empty() || !state.make_palette(mesh)) return;
     const auto palette = std::span<const PaletteMatrix>(state.palette).first(joints.size());
     const auto topmost = static_cast<std::size_t>(std::min_element(joints.begin(), joints.end()) - joints.begin());
     const glm::dmat3 top(matrix_of(palette[topmost]));
     dual.scale = std::cbrt(glm::determinant(top));
     constexpr double kFlat = 1e-4;  // relative to its longest side: no uniform scale then
     if (!(std::abs(dual.scale) > kFlat * largest(top))) dual.scale = 1.0;
-    constexpr double kStretched = 2e-6;  // more than rounding does to a rotation
-    dual.is_stretched = false;
+    MotionWriter writer;
     for (std::size_t entry = 0; entry < palette.size(); ++entry) {
         glm::dmat4 matrix = matrix_of(palette[entry]);
-        if (!std::isfinite(largest(glm::dmat3(matrix)) + glm::length(glm::dvec3(matrix[3])))) return;
         for (int c = 0; c < 4; ++c) matrix[c] = glm::dvec4(glm::dvec3(matrix[c]) / dual.scale, c == 3 ? 1.0 : 0.0);
-        dual.motions[entry] = motion_of(matrix, dual.places[dual.first_place[mesh] + entry]);
-        dual.is_stretched = dual.is_stretched || largest(dual.motions[entry].stretch - glm::dmat3(1.0)) > kStretched;
+        writer.put(matrix, dual.places[dual.first_place[mesh] + entry], dual.motions[entry], dual.stretches[entry]);
     }
-    dual.are_good = true;
-    dual.has_kernel = kernel_table() != nullptr && round_motions(palette.size(), dual);
+    dual.is_stretched = writer.is_stretched();
+    dual.are_good = writer.are_finite();
 }
 
 }  // namespace
 
-DualMotions::DualMotions(const Model& model)
-    : motions(model.largest_palette()), kernel_motions(motions.size()), kernel_stretches(motions.size()) {
+DualMotions::DualMotions(const Model& model) : motions(model.largest_palette()), stretches(motions.size()) {
     for (const Mesh& mesh : model.meshes()) {
         first_place.push_back(static_cast<std::uint32_t>(places.size()));
         for (const glm::mat4& inverse_bind : mesh.palette.inverse_bind()) places.push_back(place_of(inverse_bind));
@@ -151,18 +146,14 @@ bool skin_by_dual_quaternions(PoseState& state, std::uint32_t mesh, std::uint32_
     motions_of = with_palette;
     if (!dual.are_good) return false;
     SkinBlock wanted = outputs;
-    wanted.palette = dual.has_kernel && dual.is_stretched ? dual.kernel_stretches.data() : nullptr;
+    wanted.palette = dual.is_stretched ? dual.stretches.data() : nullptr;
     Staging staging(data.object.meshes[mesh], nullptr, weights, state.active_targets, wanted);
-    const KernelTable* const kernels = dual.has_kernel ? kernel_table() : nullptr;
-    DualBlock block{wanted, dual.kernel_motions.data(), static_cast<float>(dual.scale)};
+    DualKernel* const kernel = kernel_table().dual;
+    DualBlock block{wanted, dual.motions.data(), static_cast<float>(dual.scale)};
     for (std::size_t first = 0; first < wanted.vertices; first += block.vertices.vertices) {
         block.vertices.vertices = std::min(wanted.vertices - first, staging.capacity());
         staging.fill(first, wanted, block.vertices);
-        if (kernels != nullptr) {
-            kernels->dual(block);
-        } else {
-            dual_plain(block.vertices, dual.motions, dual.scale, dual.is_stretched);
-        }
+        kernel(block);
     }
     return true;
 }

@@ -4,20 +4,15 @@
 
 #include "dual_skin.h"
 #include "kernels/kernel_table.h"
-#include "kernels/plain.h"
 #include "pose/pose_state.h"
 #include "staging.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace bendy {
 namespace {
-
-SkinKernel* skin_kernel(Kernel kernel) {
-    const KernelTable* const table = kernel_table(kernel);
-    return table == nullptr ? skin_plain : table->skin;
-}
 
 /// Copies vertices that no joint moves.
 void copy_block(const SkinBlock& block) {
@@ -62,6 +57,7 @@ public:
 
 private:
     void run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted, std::size_t first, std::size_t count) const;
+    void run_apart(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted) const;
     void skin_rigid(std::uint32_t mesh, Staging& staging, const SkinBlock& wanted);
 
     PoseState& state_;
@@ -81,8 +77,33 @@ void Skinning::run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted
     }
 }
 
+/// Skins one vertex at a time, without the bones whose weight is zero: kernels multiply by these weights, too, but not
+/// all of the palette is finite.
+void Skinning::run_apart(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted) const {
+    static constexpr PaletteMatrix kNothing{};
+    std::array<std::uint16_t, kMaxInfluences> bones{};
+    std::array<float, kMaxInfluences> weights{};
+    for (std::size_t vertex = 0; vertex < wanted.vertices; ++vertex) {
+        SkinBlock block = wanted;
+        block.vertices = 1;
+        staging.fill(vertex, wanted, block);
+        std::size_t used = 0;
+        for (std::size_t k = 0; k < block.influences; ++k) {
+            if (block.weights[k] == 0.0f) continue;
+            bones[used] = block.bones8 != nullptr ? block.bones8[k] : block.bones16[k];
+            weights[used++] = block.weights[k];
+        }
+        if (used == 0) block.palette = &kNothing;
+        block.bones8 = nullptr;
+        block.bones16 = bones.data();
+        block.weights = weights.data();
+        block.influences = std::max<std::size_t>(used, 1);
+        kernel(block);
+        bones[0] = 0;
+    }
+}
+
 void Skinning::skin_rigid(std::uint32_t mesh, Staging& staging, const SkinBlock& wanted) {
-    SkinKernel* const chosen = skin_kernel(kernel());
     const std::size_t vertices = wanted.vertices;
     const bool has_one_mover = data_.movers[mesh].per_vertex.empty();
     for (std::size_t first = 0; first < vertices;) {
@@ -92,7 +113,8 @@ void Skinning::skin_rigid(std::uint32_t mesh, Staging& staging, const SkinBlock&
         if (joint == kNone) {
             run(copy_block, staging, wanted, first, end - first);
         } else {
-            run(state_.make_rigid_palette(joint) ? chosen : skin_plain, staging, wanted, first, end - first);
+            state_.make_rigid_palette(joint);
+            run(kernel_table().skin, staging, wanted, first, end - first);
         }
         first = end;
     }
@@ -119,11 +141,12 @@ void Skinning::skin_mesh(std::uint32_t mesh_number, std::uint32_t vertices, std:
         skin_rigid(mesh_number, staging, wanted);
         return;
     }
-    // Kernels also multiply by weights that are zero.
-    const Kernel chosen = state_.make_palette(mesh_number) ? kernel() : Kernel::plain;
-    Staging staging(mesh, chosen == Kernel::avx2 ? &data_.skin_plans[mesh_number] : nullptr, weights,
-                    state_.active_targets, wanted);
-    run(skin_kernel(chosen), staging, wanted, 0, vertices);
+    const bool is_finite = state_.make_palette(mesh_number);
+    const Kernel chosen = kernel();
+    const bool has_plan = is_finite && chosen == Kernel::avx2;
+    Staging staging(mesh, has_plan ? &data_.skin_plans[mesh_number] : nullptr, weights, state_.active_targets, wanted);
+    if (!is_finite) return run_apart(kernel_table(chosen).skin, staging, wanted);
+    run(kernel_table(chosen).skin, staging, wanted, 0, vertices);
 }
 
 }  // namespace

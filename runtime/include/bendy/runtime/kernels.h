@@ -12,7 +12,7 @@
 namespace BENDY_PUBLIC bendy {
 
 enum class Kernel : std::uint8_t {
-    plain,  ///< scalar; the reference that the others are tested against
+    plain,  ///< four lanes in portable C++: the same bits on every machine
     sse4,   ///< four lanes, SSE 4.1
     avx2,   ///< eight lanes, AVX2 and FMA
     neon,   ///< four lanes, 64-bit ARM
