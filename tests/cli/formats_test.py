@@ -12,6 +12,8 @@ import unittest
 import unittest.mock
 from pathlib import Path
 
+from jsonschema import Draft202012Validator
+
 sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
 from chunk_file import Chunk  # noqa: E402
@@ -60,24 +62,83 @@ class Export(Case):
         self.done("convert", "-q", "a b.gltf", "-o", "again.bendy")
         self.assertEqual((self.folder / "again.bendy").read_bytes(), self.convert().read_bytes())
 
-    def test_the_rig_stands_in_the_extras_and_can_be_edited_there(self):
+    def schemas(self):
+        folder = SOURCE / "spec" / "gltf"
+        return [Draft202012Validator(json.loads((folder / name).read_text(encoding="utf-8")))
+                for name in ("node.BENDY_joint_limits.schema.json", "glTF.BENDY_ik_chains.schema.json")]
+
+    def rig_of(self, document):
+        """The extensions of the nodes and of the root that hold the rig, checked by the schemas."""
+        of_nodes, of_root = self.schemas()
+        limits = [node.get("extensions", {}).get("BENDY_joint_limits") for node in document["nodes"]]
+        for limit in filter(None, limits):
+            of_nodes.validate(limit)
+        of_root.validate(document["extensions"]["BENDY_ik_chains"])
+        self.assertLessEqual({"BENDY_ik_chains", "BENDY_joint_limits"}, set(document["extensionsUsed"]))
+        return limits, document["extensions"]["BENDY_ik_chains"]
+
+    def test_the_rig_stands_in_extensions_and_can_be_edited_there(self):
         self.done("export", self.convert(), "-o", "m.gltf", "-q")
         document = json.loads((self.folder / "m.gltf").read_text())
-        rig = document["scenes"][0]["extras"]["bendy_rig"]
-        self.assertEqual(rig, json.loads(self.done("rig", self.convert())))
-        rig["chains"] = rig["chains"][:1]
+        limits, chains = self.rig_of(document)
+        rig = json.loads(self.done("rig", self.convert()))
+        self.assertEqual(sum(limit is not None for limit in limits), len(rig["joints"]))
+        self.assertEqual([chain["name"] for chain in chains["chains"]], [chain["name"] for chain in rig["chains"]])
+        self.assertNotIn("bendy_rig", document["scenes"][0].get("extras", {}))
+        chains["chains"] = chains["chains"][:1]
         (self.folder / "m.gltf").write_text(json.dumps(document))
         self.done("convert", "m.gltf", "-o", "m.bendy", "-q")
         self.assertEqual(len(json.loads(self.done("rig", "m.bendy"))["chains"]), 1)
 
-    def test_a_broken_rig_is_named_and_the_rest_converts(self):
+    def test_a_rig_in_the_extras_is_still_read(self):
+        self.done("export", self.convert(), "-o", "m.gltf", "-q")
+        document = json.loads((self.folder / "m.gltf").read_text())
+        del document["extensions"], document["extensionsUsed"]
+        for node in document["nodes"]:
+            node.pop("extensions", None)
+        document["scenes"][0].setdefault("extras", {})["bendy_rig"] = json.loads(self.done("rig", self.convert()))
+        (self.folder / "m.gltf").write_text(json.dumps(document))
+        self.done("convert", "-q", "m.gltf", "-o", "again.bendy")
+        self.assertEqual((self.folder / "again.bendy").read_bytes(), self.convert().read_bytes())
+
+    def test_a_broken_chain_is_named_and_the_rest_converts(self):
         self.done("export", self.convert("tentacle"), "-o", "t.gltf", "-q")
         document = json.loads((self.folder / "t.gltf").read_text())
-        document["scenes"][0]["extras"]["bendy_rig"]["chains"][0]["start"] = "nobody"
+        document["extensions"]["BENDY_ik_chains"]["chains"][0]["start"] = "nobody"
         (self.folder / "t.gltf").write_text(json.dumps(document))
         result = self.bendy("convert", "t.gltf", "-q")
         self.assertEqual(result.returncode, 0)
-        self.assertIn(b"scene.extras.bendy_rig.chains[0].start: rig left out: there is no joint", result.stderr)
+        self.assertIn(b"extensions.BENDY_ik_chains.chains[0].start: chain left out: it must be a whole number", result.stderr)
+
+    def test_the_samples_of_the_extensions_come_back_as_they_are(self):
+        for name in ("arm", "every_field"):
+            sample = SOURCE / "spec" / "gltf" / f"{name}.gltf"
+            result = self.bendy("convert", sample, "-q", "-o", f"{name}.bendy")
+            self.assertEqual((result.returncode, result.stderr), (0, b""))
+            self.done("export", f"{name}.bendy", "-q", "-o", f"{name}.gltf")
+            # The nodes of the samples are in pre-order of `nodes`, except for the arm's target.
+            before, after = (json.loads(path.read_text(encoding="utf-8")) for path in (sample, self.folder / f"{name}.gltf"))
+            numbers = {node["name"]: number for number, node in enumerate(after["nodes"])}
+            limits, chains = self.rig_of(after)
+            old_limits, old_chains = self.rig_of(before)
+            for number, node in enumerate(before["nodes"]):
+                self.assertEqual(limits[numbers[node["name"]]], old_limits[number])
+            for chain in old_chains["chains"]:
+                for member in ("start", "effector", "target", "pole"):
+                    if member in chain:
+                        chain[member] = numbers[before["nodes"][chain[member]]["name"]]
+                for weight in chain.get("weights", []):
+                    weight["node"] = numbers[before["nodes"][weight["node"]]["name"]]
+            self.assertEqual(chains, old_chains)
+
+    def test_a_file_with_the_extensions_has_its_rig_there(self):
+        document = json.loads((SOURCE / "spec" / "gltf" / "arm.gltf").read_text(encoding="utf-8"))
+        document["nodes"][3]["extras"] = {"rig_joint": {"limits": [{"model": "locked"}]}}
+        (self.folder / "arm.gltf").write_text(json.dumps(document))
+        (self.folder / "rig.json").write_text(json.dumps({"bendy_rig": 1, "joints": {"LowerArm": {"model": "locked"}}}))
+        self.done("convert", "-q", "arm.gltf", "--rig", "rig.json", "-o", "arm.bendy")
+        rig = json.loads(self.done("rig", "arm.bendy"))
+        self.assertEqual((sorted(rig["joints"]), rig["joints"]["LowerArm"]["model"]), (["LowerArm", "UpperArm"], "locked"))
 
     def test_every_kind_of_chunk(self):
         source = SOURCE / "spec" / "examples" / "every_chunk.bendy"

@@ -7,6 +7,7 @@ bendy.ksy and bendy.hexpat among them; follows the links between pages; and asks
 there is one. Python 3, nothing else.
 """
 
+import json
 import pathlib
 import re
 import subprocess
@@ -450,6 +451,26 @@ def check_references(check):
         check.same(name, key, spec[key], code[key])
 
 
+def check_gltf_extensions(check):
+    """The tables of gltf.md name the members, and the words, of the schemas, which make_gltf_schema.py makes."""
+    schemas = {'constraint': 'node.BENDY_joint_limits', 'chain': 'glTF.BENDY_ik_chains'}
+    found = {}
+    for before, _, rows in tables(check.page('gltf.md')):
+        marked = re.fullmatch(r'<!-- members: (\w+) -->', before)
+        if marked:
+            found[marked[1]] = rows
+    check.same_keys('spec/gltf.md', 'table', sorted(found), sorted(schemas))
+    for kind in found.keys() & schemas.keys():
+        schema = json.loads((check.spec / 'gltf' / (schemas[kind] + '.schema.json')).read_text(encoding='utf-8'))['$defs'][kind]
+        members = {name: row[1] for row in found[kind] for name in re.findall(r'`(\w+)`', row[0])}
+        check.same_keys('spec/gltf.md', 'member of a ' + kind, sorted(members), sorted(schema['properties']))
+        for name in members.keys() & schema['properties'].keys():
+            words = schema['properties'][name].get('enum')
+            if words:
+                named = [word for word in re.findall(r'`(\w+)`', members[name]) if word in words]
+                check.same('spec/gltf.md', 'words of ' + name, sorted(set(named)), sorted(words))
+
+
 def check_flags(check):
     name = 'spec/grammar.md'
     masks = {}
@@ -570,7 +591,7 @@ def check_links(check):
 
 
 def check_made_files(check):
-    for script in ('make_bytes.py', 'make_grammar.py', 'make_text_schema.py'):
+    for script in ('make_bytes.py', 'make_grammar.py', 'make_text_schema.py', 'make_gltf_schema.py'):
         made = subprocess.run([sys.executable, '-B', str(check.spec / script), '--check'], capture_output=True, text=True)
         if made.returncode != 0:
             for line in (made.stdout + made.stderr).splitlines():
@@ -594,6 +615,7 @@ def main(arguments):
     check_codes(check)
     check_constraints_of(check)
     check_references(check)
+    check_gltf_extensions(check)
     check_flags(check)
     check_kaitai(check, chunks, records)
     check_hexpat(check, chunks, records)

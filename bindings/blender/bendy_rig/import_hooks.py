@@ -71,9 +71,6 @@ def guarded(work, *arguments):
 
 def take_extras(gltf, file):
     """Removes the rig from the extras: as custom properties, it would be exported again unchanged."""
-    for scene in gltf.data.scenes or []:
-        if isinstance(scene.extras, dict):
-            scene.extras.pop('bendy_rig', None)
     for joint, node in enumerate(gltf.data.nodes or []):
         extras = node.extras if isinstance(node.extras, dict) else {}
         record = extras.get('rig_joint')

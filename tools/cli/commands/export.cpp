@@ -148,9 +148,9 @@ void add_export(CLI::App& program) {
     add_lod(*command, arguments->lod);
     command->add_flag("-q,--quiet", arguments->quiet, "warnings and errors only");
     command->footer(
-        "glTF: numbers are kept to the bit; constraints and IK chains go into the scene's extras, where `bendy "
-        "convert` "
-        "finds them.\nX-files: constraints and chains go into templates of our own (spec/xfile.md); what has no place "
+        "glTF: numbers are kept to the bit; constraints and IK chains go into extensions of our own (spec/gltf.md), "
+        "where `bendy convert` finds them.\nX-files: constraints and chains go into templates of our own "
+        "(spec/xfile.md); what has no place "
         "is named.\nExample: bendy export fox.bendy -o fox.glb\n         bendy export lod.bendy --lod 0.25 -o far.glb");
     command->callback([arguments] { run(*arguments); });
 }

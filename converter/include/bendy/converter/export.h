@@ -28,10 +28,9 @@ struct GltfAsset {
 };
 
 /// Reads a bendy file and writes it as glTF 2.0: nodes with the joints' numbers, meshes, skins, morph targets,
-/// animations, materials and textures; constraints and IK chains as a rig file (spec/rig.md) in the scene's extras,
-/// where import_gltf's caller finds them. Floats are kept bit for bit, so that the result converts to the same chunks.
-/// `report` lists everything that glTF cannot hold. Throws nothing.
-/// \param buffer_file  where the buffer will be, relative to the JSON; empty: in the same GLB file
+/// animations, materials and textures; constraints and IK chains as extensions of our own (spec/gltf.md). Floats are
+/// kept bit for bit, so that the result converts to the same chunks. `report` lists everything that glTF cannot hold.
+/// Throws nothing. \param buffer_file  where the buffer will be, relative to the JSON; empty: in the same GLB file
 Result<GltfAsset, ImportError> export_gltf(const std::filesystem::path& bendy_file,
                                            const std::filesystem::path& buffer_file, Report& report,
                                            const ExportOptions& options = {});

@@ -92,7 +92,7 @@ private:
     }
 
     void read_bone(const Extra& extra) {
-        Fields fields(extra.value, extra.place, AngleUnit::radians);
+        Fields fields(extra.value, extra.place, Notation::extras);
         read_notes(fields);
         fields.read("stretch", rig_.stretch[extra.joint], 0.0f);
         if (fields.find("rest_orientation") == nullptr) return;
@@ -114,10 +114,10 @@ private:
 
     void read_constraints(const Extra& extra) {
         if (claims_.joints[extra.joint]) return;
-        Fields fields(extra.value, extra.place, AngleUnit::radians);
+        Fields fields(extra.value, extra.place, Notation::extras);
         std::vector<ConstraintRecord> constraints;
         if (const OrderedJson* own = fields.find("limits"); own != nullptr) {
-            constraints = parse_constraints(*own, fields.place_of("limits"), AngleUnit::radians);
+            constraints = parse_constraints(*own, fields.place_of("limits"), Notation::extras);
         } else {
             constraints = read_blender_limits(fields, axes_of_bone(extra.joint), report_);
             if (constraints.empty()) return;
@@ -170,16 +170,16 @@ private:
     }
 
     void read_chains(const Extra& extra) {
-        Fields fields(extra.value, extra.place, AngleUnit::radians);
+        Fields fields(extra.value, extra.place, Notation::extras);
         const OrderedJson& list = need_list(fields.need("chains"), fields.place_of("chains"));
         for (std::size_t i = 0; i < list.size(); ++i) {
             const std::string place = at(fields.place_of("chains"), i);
             guard("chain left out", place, [&] {
-                Fields chain(list[i], place, AngleUnit::radians);
+                Fields chain(list[i], place, Notation::extras);
                 const bool is_blenders = chain.find("joints") != nullptr;
                 if (is_blenders) read_notes(chain);
                 found_.push_back({is_blenders ? read_blender_chain(chain, extra.joint, rig_, budget_, report_)
-                                              : resolve_chain(parse_chain(list[i], place, AngleUnit::radians), scene_,
+                                              : resolve_chain(parse_chain(list[i], place, Notation::extras), scene_,
                                                               rig_.index, budget_),
                                   place});
             });

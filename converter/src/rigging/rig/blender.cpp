@@ -75,7 +75,7 @@ std::vector<Source> read_sources(Fields& fields, std::string_view key, bool is_r
     for (std::size_t i = 0; i < list->size(); ++i) {
         Source source;
         source.place = at(fields.place_of(key), i);
-        Fields one((*list)[i], source.place, AngleUnit::radians);
+        Fields one((*list)[i], source.place, Notation::extras);
         auto space = static_cast<std::uint8_t>(Space::rest);
         one.read_word("space", kSpaceNames, space);
         source.space = static_cast<Space>(space);
@@ -176,7 +176,7 @@ std::optional<ConstraintRecord> read_ik_limits(Fields& fields) {
         constraint.emplace();
         constraint->model = static_cast<std::uint8_t>(ConstraintModel::swing_twist_ellipse);
         constraint->frame = kAlongBone;
-        Fields ranges(*value, fields.place_of("swing_twist"), AngleUnit::radians);
+        Fields ranges(*value, fields.place_of("swing_twist"), Notation::extras);
         constexpr std::array<std::string_view, 3> kRanges{"twist_y", "swing_z", "swing_x"};
         for (std::size_t axis = 0; axis < 3; ++axis)
             ranges.read_angle_range(kRanges[axis], constraint->rotation_min[axis], constraint->rotation_max[axis]);
@@ -278,12 +278,12 @@ public:
         read_tip();
         choose_solver();
         if (const OrderedJson* target = fields_.find("target"); target != nullptr && !target->is_null()) {
-            Fields control(*target, fields_.place_of("target"), AngleUnit::radians);
+            Fields control(*target, fields_.place_of("target"), Notation::extras);
             chain_.record.target = find_control(control);
             if (chain_.record.target == kNone) approximate("the target of a chain is not a joint: left out", control);
         }
         if (const OrderedJson* pole = fields_.find("pole"); pole != nullptr && !pole->is_null()) {
-            Fields control(*pole, fields_.place_of("pole"), AngleUnit::radians);
+            Fields control(*pole, fields_.place_of("pole"), Notation::extras);
             read_pole(control);
         }
         check();

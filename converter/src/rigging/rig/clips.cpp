@@ -39,7 +39,7 @@ void guard(WrongMarkers wrong, const std::string& source, Report& report, Work w
 }
 
 Marker parse_entry(const OrderedJson& value, const std::string& place) {
-    Fields fields(value, place, AngleUnit::radians);
+    Fields fields(value, place, Notation::extras);
     Marker marker;
     marker.seconds = to_float(fields.need("time"), fields.place_of("time"));
     fields.need("name");
@@ -68,7 +68,7 @@ std::vector<float> parse_numbers(const OrderedJson& value, const std::string& pl
 }
 
 void parse_target(const OrderedJson& value, const std::string& place, RigCurve& curve) {
-    Fields fields(value, place, AngleUnit::radians);
+    Fields fields(value, place, Notation::extras);
     for (std::size_t kind = 1; kind < kValueNames<CurveTarget>.size(); ++kind) {
         if (fields.find(kValueNames<CurveTarget>[kind]) == nullptr) continue;
         if (curve.curve.kind != CurveTarget::nothing) fail(place, "expected one target, found two");
@@ -125,7 +125,7 @@ void check_keys(Curve& curve, const std::string& place) {
 }
 
 RigCurve parse_curve(const OrderedJson& value, const std::string& place) {
-    Fields fields(value, place, AngleUnit::radians);
+    Fields fields(value, place, Notation::extras);
     RigCurve parsed;
     parsed.place = place;
     Curve& curve = parsed.curve;

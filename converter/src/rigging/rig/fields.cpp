@@ -14,8 +14,8 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-float shown_in(float value, AngleUnit unit) {
-    return unit == AngleUnit::degrees ? static_cast<float>(value / kRadiansPerDegree) : value;
+float shown_in(float value, Notation notation) {
+    return notation == Notation::rig_file ? static_cast<float>(value / kRadiansPerDegree) : value;
 }
 
 std::string shown(float value) {
@@ -38,13 +38,13 @@ void check_between(float number, float low, float high, const std::string& place
                     : shown(number) + " is less than " + shown(low));
 }
 
-void read_pair(const OrderedJson& value, const std::string& place, AngleUnit unit, float& low, float& high) {
+void read_pair(const OrderedJson& value, const std::string& place, Notation notation, float& low, float& high) {
     need_list_of(2, value, place);
-    const float least = value[0].is_null() ? -kInfinity : to_float(value[0], at(place, 0), unit);
-    const float most = value[1].is_null() ? kInfinity : to_float(value[1], at(place, 1), unit);
+    const float least = value[0].is_null() ? -kInfinity : to_float(value[0], at(place, 0), notation);
+    const float most = value[1].is_null() ? kInfinity : to_float(value[1], at(place, 1), notation);
     if (least > most) {
-        fail(place,
-             "the minimum " + shown(shown_in(least, unit)) + " is above the maximum " + shown(shown_in(most, unit)));
+        fail(place, "the minimum " + shown(shown_in(least, notation)) + " is above the maximum " +
+                        shown(shown_in(most, notation)));
     }
     low = least;
     high = most;
@@ -52,16 +52,26 @@ void read_pair(const OrderedJson& value, const std::string& place, AngleUnit uni
 
 }  // namespace
 
+std::string spelled(std::string_view word, Notation notation) {
+    if (notation != Notation::gltf) return std::string(word);
+    std::string text;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        const bool starts_word = word[i] == '_' && i + 1 < word.size() && word[i + 1] >= 'a' && word[i + 1] <= 'z';
+        text += starts_word ? static_cast<char>(word[++i] - 'a' + 'A') : word[i];
+    }
+    return text;
+}
+
 std::string shown(const OrderedJson& value) {
     if (value.is_string()) return quote(value.get_ref<const std::string&>());
     if (value.is_number() || value.is_boolean()) return value.dump();
     return value.type_name();
 }
 
-float to_float(const OrderedJson& value, const std::string& place, AngleUnit unit) {
+float to_float(const OrderedJson& value, const std::string& place, Notation notation) {
     if (!value.is_number()) fail(place, "expected a number, found " + shown(value));
     const auto number = value.get<double>();
-    const double converted = unit == AngleUnit::degrees ? to_radians(number) : number;
+    const double converted = notation == Notation::rig_file ? to_radians(number) : number;
     if (!(std::abs(converted) <= static_cast<double>(std::numeric_limits<float>::max())))
         fail(place, shown(value) + " does not fit a 32-bit float");
     return static_cast<float>(converted);
@@ -76,25 +86,26 @@ const OrderedJson& need_list(const OrderedJson& value, const std::string& place)
     return value;
 }
 
-Fields::Fields(const OrderedJson& object, std::string place, AngleUnit unit)
-    : object_(object), place_(std::move(place)), unit_(unit) {
+Fields::Fields(const OrderedJson& object, std::string place, Notation notation)
+    : object_(object), place_(std::move(place)), notation_(notation) {
     if (!object.is_object()) fail(place_, "it must be an object, not " + shown(object));
     is_read_.resize(object.size());
     std::unordered_set<std::string_view> keys;
     for (const auto& [name, value] : object.items()) {
-        if (!keys.insert(name).second) fail(place_of(name), "it stands twice");
+        if (!keys.insert(name).second) fail(member(place_, name), "it stands twice");
     }
 }
 
 std::string Fields::place_of(std::string_view key) const {
-    return member(place_, key);
+    return member(place_, spelled(key, notation_));
 }
 
 const OrderedJson* Fields::find(std::string_view key) {
     if (asked_.empty() || asked_.back() != key) asked_.push_back(key);
+    const std::string name = spelled(key, notation_);
     std::size_t number = 0;
     for (auto member = object_.begin(); member != object_.end(); ++member, ++number) {
-        if (member.key() != key) continue;
+        if (member.key() != name) continue;
         is_read_[number] = true;
         return &*member;
     }
@@ -112,8 +123,8 @@ void Fields::refuse_others() const {
     for (auto member = object_.begin(); member != object_.end(); ++member, ++number) {
         if (is_read_[number]) continue;
         std::string known;
-        for (const std::string_view key : asked_) known += (known.empty() ? "" : ", ") + std::string(key);
-        fail(place_of(member.key()), "there is no such key; there are " + known);
+        for (const std::string_view key : asked_) known += (known.empty() ? "" : ", ") + spelled(key, notation_);
+        fail(bendy::converter::member(place_, member.key()), "there is no such key; there are " + known);
     }
 }
 
@@ -154,7 +165,7 @@ void Fields::read(std::string_view key, std::span<float> numbers, float low, flo
 }
 
 void Fields::read_angle(std::string_view key, float& angle) {
-    if (const OrderedJson* value = find(key); value != nullptr) angle = to_float(*value, place_of(key), unit_);
+    if (const OrderedJson* value = find(key); value != nullptr) angle = to_float(*value, place_of(key), notation_);
 }
 
 void Fields::read_angles(std::string_view key, std::span<float> angles) {
@@ -162,16 +173,16 @@ void Fields::read_angles(std::string_view key, std::span<float> angles) {
     if (value == nullptr) return;
     const std::string place = place_of(key);
     need_list_of(angles.size(), *value, place);
-    for (std::size_t i = 0; i < angles.size(); ++i) angles[i] = to_float((*value)[i], at(place, i), unit_);
+    for (std::size_t i = 0; i < angles.size(); ++i) angles[i] = to_float((*value)[i], at(place, i), notation_);
 }
 
 void Fields::read_range(std::string_view key, float& low, float& high) {
     if (const OrderedJson* value = find(key); value != nullptr)
-        read_pair(*value, place_of(key), AngleUnit::radians, low, high);
+        read_pair(*value, place_of(key), Notation::extras, low, high);
 }
 
 void Fields::read_angle_range(std::string_view key, float& low, float& high) {
-    if (const OrderedJson* value = find(key); value != nullptr) read_pair(*value, place_of(key), unit_, low, high);
+    if (const OrderedJson* value = find(key); value != nullptr) read_pair(*value, place_of(key), notation_, low, high);
 }
 
 void Fields::read_rotation(std::string_view key, std::array<float, 4>& rotation) {
@@ -199,14 +210,16 @@ void Fields::read_word(std::string_view key, std::span<const std::string_view> w
     const OrderedJson* value = find(key);
     if (value == nullptr) return;
     if (value->is_string()) {
-        const auto word = std::find(words.begin(), words.end(), value->get_ref<const std::string&>());
+        const auto word = std::find_if(words.begin(), words.end(), [&](std::string_view each) {
+            return spelled(each, notation_) == value->get_ref<const std::string&>();
+        });
         if (word != words.end()) {
             number = static_cast<std::uint8_t>(word - words.begin());
             return;
         }
     }
     std::string known;
-    for (const std::string_view word : words) known += (known.empty() ? "" : ", ") + std::string(word);
+    for (const std::string_view word : words) known += (known.empty() ? "" : ", ") + spelled(word, notation_);
     fail(place_of(key), shown(*value) + " is none of " + known);
 }
 

@@ -15,8 +15,12 @@
 
 namespace bendy::converter {
 
-/// The unit of angles in a source: degrees in rig files, which people edit; radians in extras.
-enum class AngleUnit : bool { radians, degrees };
+/// How a source writes records. Angles are degrees in rig files, which people edit, and radians elsewhere. glTF
+/// extensions have keys and words in glTF's camelCase.
+enum class Notation : std::uint8_t { rig_file, extras, gltf };
+
+/// A key or word of rig files in the notation: `soft_zone` is `softZone` in glTF.
+std::string spelled(std::string_view word, Notation notation);
 
 inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
@@ -29,14 +33,15 @@ constexpr double to_radians(double degrees) {
 inline constexpr std::span<const std::string_view> kOrderNames = kShownNames<EulerOrder>;
 inline constexpr std::array<const char*, 3> kAxisNames{"x", "y", "z"};
 
-/// Reads the members of a JSON object one by one, with checks. Every function fails at the member's path, and leaves
-/// its target unchanged if the member is missing.
+/// Reads the members of a JSON object one by one, with checks. Keys and words are given as in rig files. Every function
+/// fails at the member's path, and leaves its target unchanged if the member is missing.
 class Fields {
 public:
     /// Fails if the value is not an object or a member occurs twice.
-    Fields(const OrderedJson& object, std::string place, AngleUnit unit);
+    Fields(const OrderedJson& object, std::string place, Notation notation);
 
     [[nodiscard]] const std::string& place() const { return place_; }
+    [[nodiscard]] Notation notation() const { return notation_; }
     [[nodiscard]] std::string place_of(std::string_view key) const;
     /// The member, or null.
     const OrderedJson* find(std::string_view key);
@@ -68,7 +73,7 @@ public:
 private:
     const OrderedJson& object_;
     std::string place_;
-    AngleUnit unit_;
+    Notation notation_;
     std::vector<bool> is_read_;
     std::vector<std::string_view> asked_;  ///< literals
 };
@@ -77,8 +82,8 @@ private:
 std::string shown(const OrderedJson& value);
 
 /// A finite number in the range of float; fails at `place`.
-/// \param unit  of angles: degrees are converted to radians
-float to_float(const OrderedJson& value, const std::string& place, AngleUnit unit = AngleUnit::radians);
+/// \param notation  of an angle: degrees are converted to radians
+float to_float(const OrderedJson& value, const std::string& place, Notation notation = Notation::extras);
 
 /// `place` and the member's name.
 std::string member(const std::string& place, std::string_view name);

@@ -16,7 +16,8 @@ namespace {
 void refuse(Fields& fields, std::string_view key, ConstraintModel model) {
     if (fields.find(key) == nullptr) return;
     fail(fields.place_of(key),
-         "it means nothing for model " + std::string(kValueNames<ConstraintModel>[static_cast<std::size_t>(model)]));
+         "it means nothing for model " +
+             spelled(kValueNames<ConstraintModel>[static_cast<std::size_t>(model)], fields.notation()));
 }
 
 void read_rotation_limits(Fields& fields, ConstraintModel model, ConstraintRecord& constraint) {
@@ -44,10 +45,10 @@ void read_rotation_limits(Fields& fields, ConstraintModel model, ConstraintRecor
     }
 }
 
-void read_translation(Fields& fields, AngleUnit unit, ConstraintRecord& constraint) {
+void read_translation(Fields& fields, ConstraintRecord& constraint) {
     const OrderedJson* value = fields.find("translation");
     if (value == nullptr) return;
-    Fields translation(*value, fields.place_of("translation"), unit);
+    Fields translation(*value, fields.place_of("translation"), fields.notation());
     for (std::size_t axis = 0; axis < 3; ++axis)
         translation.read_range(kAxisNames[axis], constraint.translation_min[axis], constraint.translation_max[axis]);
     translation.refuse_others();
@@ -69,8 +70,8 @@ void check_constraint_at(const ConstraintRecord& constraint, const std::string& 
     if (!faults.empty()) fail(place, describe(faults.list().front()));
 }
 
-ConstraintRecord parse_constraint(const OrderedJson& value, const std::string& place, AngleUnit unit) {
-    Fields fields(value, place, unit);
+ConstraintRecord parse_constraint(const OrderedJson& value, const std::string& place, Notation notation) {
+    Fields fields(value, place, notation);
     ConstraintRecord constraint;
     fields.need("model");
     fields.read_word("model", kValueNames<ConstraintModel>, constraint.model);
@@ -83,7 +84,7 @@ ConstraintRecord parse_constraint(const OrderedJson& value, const std::string& p
     fields.read_word("scope", kValueNames<ConstraintScope>, constraint.scope);
     fields.read_rotation("frame", constraint.frame);
     read_rotation_limits(fields, model, constraint);
-    read_translation(fields, unit, constraint);
+    read_translation(fields, constraint);
     fields.read("stiffness", constraint.stiffness, 0.0f, 1.0f);
     fields.read_angles("preferred", constraint.preferred);
     fields.read_angle("soft_zone", constraint.soft_zone);
@@ -96,15 +97,15 @@ ConstraintRecord parse_constraint(const OrderedJson& value, const std::string& p
     return constraint;
 }
 
-std::vector<ConstraintRecord> parse_constraints(const OrderedJson& value, const std::string& place, AngleUnit unit) {
-    if (!value.is_array()) return {parse_constraint(value, place, unit)};
+std::vector<ConstraintRecord> parse_constraints(const OrderedJson& value, const std::string& place, Notation notation) {
+    if (!value.is_array()) return {parse_constraint(value, place, notation)};
     std::vector<ConstraintRecord> constraints;
     std::bitset<kConstraintScopes> taken;
     for (std::size_t i = 0; i < value.size(); ++i) {
-        const ConstraintRecord constraint = parse_constraint(value[i], at(place, i), unit);
+        const ConstraintRecord constraint = parse_constraint(value[i], at(place, i), notation);
         if (taken[constraint.scope]) {
             fail(at(place, i), "there is a second constraint of scope " +
-                                   std::string(kValueNames<ConstraintScope>[constraint.scope]));
+                                   spelled(kValueNames<ConstraintScope>[constraint.scope], notation));
         }
         taken.set(constraint.scope);
         constraints.push_back(constraint);
@@ -119,10 +120,10 @@ void read_needed(Fields& fields, std::string_view key, std::string& text) {
     fields.read(key, text);
 }
 
-void read_weights(Fields& fields, AngleUnit unit, RigChain& chain) {
+void read_weights(Fields& fields, Notation notation, RigChain& chain) {
     const OrderedJson* value = fields.find("weights");
     if (value == nullptr) return;
-    Fields weights(*value, fields.place_of("weights"), unit);  // an object, every key once
+    Fields weights(*value, fields.place_of("weights"), notation);  // an object, every key once
     for (const auto& [name, weight] : value->items()) {
         const std::string place = weights.place_of(name);
         const float number = to_float(weight, place);
@@ -133,21 +134,12 @@ void read_weights(Fields& fields, AngleUnit unit, RigChain& chain) {
 
 }  // namespace
 
-RigChain parse_chain(const OrderedJson& value, const std::string& place, AngleUnit unit) {
-    Fields fields(value, place, unit);
-    RigChain chain;
-    chain.place = place;
-    ChainRecord& record = chain.record;
-    read_needed(fields, "name", chain.name);
-    read_needed(fields, "start", chain.start);
-    read_needed(fields, "effector", chain.effector);
-    fields.read("target", chain.target);
-    fields.read("pole", chain.pole);
+void parse_chain_settings(Fields& fields, ChainRecord& record) {
     fields.read_word("solver", kValueNames<Solver>, record.solver);
-    std::uint64_t number = 0;
+    std::uint64_t number = record.iterations;
     fields.read_integer("iterations", 65535, number);
     record.iterations = static_cast<std::uint16_t>(number);
-    number = 0;
+    number = record.priority;
     fields.read_integer("priority", 255, number);
     record.priority = static_cast<std::uint8_t>(number);
     fields.read("tolerance", record.tolerance, 0.0f);
@@ -160,9 +152,21 @@ RigChain parse_chain(const OrderedJson& value, const std::string& place, AngleUn
     fields.read("influence", record.influence, 0.0f, 1.0f);
     fields.read("stretch", record.stretch, 0.0f);
     fields.read("compress", record.compress, 0.0f, 1.0f);
-    read_weights(fields, unit, chain);
     read_flag(fields, "approximated", kApproximated, record.flags);
     read_flag(fields, "proposed", kProposed, record.flags);
+}
+
+RigChain parse_chain(const OrderedJson& value, const std::string& place, Notation notation) {
+    Fields fields(value, place, notation);
+    RigChain chain;
+    chain.place = place;
+    read_needed(fields, "name", chain.name);
+    read_needed(fields, "start", chain.start);
+    read_needed(fields, "effector", chain.effector);
+    fields.read("target", chain.target);
+    fields.read("pole", chain.pole);
+    parse_chain_settings(fields, chain.record);
+    read_weights(fields, notation, chain);
     if (const OrderedJson* extras = fields.find("extras"); extras != nullptr && !extras->is_null())
         chain.extras = extras->dump();
     fields.refuse_others();
@@ -178,31 +182,31 @@ constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
 
 Rig parse_rig(std::string_view text, Report& report) {
     const auto root = parse_json_text<OrderedJson>(text, report);
-    Fields fields(root, {}, AngleUnit::degrees);
+    Fields fields(root, {}, Notation::rig_file);
     Rig rig;
     if (const OrderedJson& version = fields.need("bendy_rig"); version != kVersion)
         fail("bendy_rig", "layout " + shown(version) + " is not supported, only 1");
     fields.read("complete", rig.complete);
     if (const OrderedJson* joints = fields.find("joints"); joints != nullptr) {
-        Fields entries(*joints, "joints", AngleUnit::degrees);  // an object, every key once
+        Fields entries(*joints, "joints", Notation::rig_file);  // an object, every key once
         for (const auto& [name, value] : joints->items()) {
             const std::string place = entries.place_of(name);
             rig.joints.push_back(
-                {parse_joint_key(name, place), place, parse_constraints(value, place, AngleUnit::degrees)});
+                {parse_joint_key(name, place), place, parse_constraints(value, place, Notation::rig_file)});
         }
     }
     std::unordered_set<std::string> names;
     if (const OrderedJson* chains = fields.find("chains"); chains != nullptr) {
         need_list(*chains, "chains");
         for (std::size_t i = 0; i < chains->size(); ++i) {
-            RigChain chain = parse_chain((*chains)[i], at("chains", i), AngleUnit::degrees);
+            RigChain chain = parse_chain((*chains)[i], at("chains", i), Notation::rig_file);
             if (!names.insert(chain.name).second)
                 fail(at("chains", i) + ".name", "there is an earlier chain " + quote(chain.name));
             rig.chains.push_back(std::move(chain));
         }
     }
     if (const OrderedJson* clips = fields.find("markers"); clips != nullptr) {
-        Fields entries(*clips, "markers", AngleUnit::degrees);
+        Fields entries(*clips, "markers", Notation::rig_file);
         rig.clips.emplace();
         for (const auto& [key, value] : clips->items()) {
             const std::string place = entries.place_of(key);

@@ -54,18 +54,21 @@ struct Rig {
     std::optional<std::vector<RigCurve>> curves;  ///< nothing: it has no list of curves
 };
 
-/// Parses one constraint of a rig file or of extras. The rest pose may lie outside; all else passes check_constraint.
+/// Parses one constraint. The rest pose may lie outside; all else passes check_constraint.
 /// Fails at the JSON path of an error.
-ConstraintRecord parse_constraint(const OrderedJson& value, const std::string& place, AngleUnit unit);
+ConstraintRecord parse_constraint(const OrderedJson& value, const std::string& place, Notation notation);
 
 /// Parses a joint's constraints: one, or a list, at most one of each scope.
-std::vector<ConstraintRecord> parse_constraints(const OrderedJson& value, const std::string& place, AngleUnit unit);
+std::vector<ConstraintRecord> parse_constraints(const OrderedJson& value, const std::string& place, Notation notation);
 
 /// Fails at `place` if check_constraint finds a fault, other than a rest pose outside the limits.
 void check_constraint_at(const ConstraintRecord& constraint, const std::string& place);
 
+/// Parses what a chain has beside its name, joints, weights and extras. Fails at the JSON path of an error.
+void parse_chain_settings(Fields& fields, ChainRecord& record);
+
 /// Parses one chain of a rig file or of extras. Fails at the JSON path of an error.
-RigChain parse_chain(const OrderedJson& value, const std::string& place, AngleUnit unit);
+RigChain parse_chain(const OrderedJson& value, const std::string& place, Notation notation);
 
 /// Parses a rig file (spec/rig.md). Fails at the JSON path of an error; for malformed JSON, with line and column.
 Rig parse_rig(std::string_view text, Report& report);
@@ -73,7 +76,7 @@ Rig parse_rig(std::string_view text, Report& report);
 /// As above, from a file. Fails with an empty place if it cannot be read.
 Rig read_rig(const std::filesystem::path& file, Report& report);
 
-/// The member of a glTF scene's extras that holds a whole rig file, as `bendy export` writes it.
+/// The member of a glTF scene's extras that may hold a whole rig file (spec/rig.md).
 inline constexpr const char* kRigInExtras = "bendy_rig";
 
 /// Removes that member from the scene's extras and parses it. Nothing if it is missing or faulty; a fault is reported.

@@ -75,8 +75,8 @@ void attach_rigs(Scene& scene, const std::optional<Rig>& rig_file, bool with_pro
     if (with_proposals) auto_rig(scene, claims.joints, report);
 }
 
-/// As above, for a scene that already has a rig: the rig file overrides it, and replaces it if it is "complete"; extras
-/// and extensions were evaluated when that rig was made.
+/// As above, for a scene that already has a rig: the rig file overrides it, and replaces it if it is "complete". Extras
+/// and other extensions are not read: they were when that rig was made.
 void change_rig(Scene& scene, const std::optional<Rig>& rig_file, bool with_proposals, Report& report) {
     const JointIndex index(scene);
     Claims claims{std::vector<bool>(scene.joints.size()), {}};
@@ -94,6 +94,11 @@ void change_rig(Scene& scene, const std::optional<Rig>& rig_file, bool with_prop
         if (rig_file->complete) return;
     }
     if (with_proposals) auto_rig(scene, claims.joints, report);
+}
+
+bool has_rig(const Scene& scene) {
+    return !scene.chains.empty() || std::any_of(scene.joints.begin(), scene.joints.end(),
+                                                [](const Joint& joint) { return !joint.constraints.empty(); });
 }
 
 constexpr std::string_view kGenerator = "bendy " BENDY_VERSION;
@@ -125,7 +130,7 @@ Result<Scene, ImportError> import_source(std::optional<Buffer> source, const std
     // If images are embedded, the remaining links are files that could not be read: they keep the source's URI.
     if (format == SourceFormat::bendy || !options.gltf.embed_images)
         move_links(*scene, file, options.output.empty() ? file : options.output, folders, report);
-    if (format == SourceFormat::gltf) {
+    if (format == SourceFormat::gltf && !has_rig(*scene)) {
         attach_rigs(*scene, rig, options.auto_rig, report);
     } else {
         change_rig(*scene, rig, options.auto_rig, report);

@@ -20,7 +20,7 @@ namespace {
 enum class Use : std::uint8_t {
     decoded,   ///< the importer implements it
     material,  ///< becomes part of the material, or is kept there as JSON; material.cpp reports it
-    ignored,   ///< affects neither shape nor motion; kept as JSON on nodes and the root, dropped elsewhere
+    ignored,   ///< affects neither shape nor motion; read, or kept as JSON, on nodes and the root, dropped elsewhere
 };
 
 struct Known {
@@ -53,6 +53,8 @@ constexpr std::array kKnown = {
     Known{"KHR_materials_volume", Use::material},
     Known{"AGI_articulations", Use::ignored},
     Known{"AGI_stk_metadata", Use::ignored},
+    Known{kIkChains, Use::ignored},
+    Known{kJointLimits, Use::ignored},
     Known{"KHR_lights_punctual", Use::ignored},
     Known{"KHR_materials_variants", Use::ignored},
     Known{"KHR_xmp_json_ld", Use::ignored},
@@ -275,6 +277,7 @@ public:
         }
         Json kept = *extensions;
         if (are_instances_made) kept.erase(std::string(kInstancing));
+        kept.erase(std::string(place.empty() ? kIkChains : kJointLimits));  // import_rig_extensions has read them
         for (auto extension = kept.begin(); extension != kept.end();) {
             const std::string at_extension = here + '.' + key(extension.key());
             if (place.empty() && extension.key() == kVariants) {

@@ -41,6 +41,7 @@ Scene import(std::vector<std::byte> bytes, ReadableFolders folders, const GltfOp
     Scene scene;
     report_extensions(root, report);
     const Skeleton skeleton = import_skeleton(document, options, scene);
+    import_rig_extensions(document, skeleton, scene);
     report_left_out(document, skeleton);
     import_images(document, options.embed_images, scene);
     import_materials(document, scene);

@@ -1,5 +1,4 @@
 #include "optimise/passes/mesh_order.h"
-#include "rigging/rig/parse_rig.h"
 #include "scene/curve_property.h"
 #include "scene/failure.h"
 #include "scene/gltf/source_generator.h"
@@ -11,9 +10,7 @@
 
 #include <bendy/converter/export.h>
 #include <bendy/converter/import.h>
-#include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
-#include <bendy/format/document.h>
 #include <bendy/format/file.h>
 
 #include <functional>
@@ -61,21 +58,6 @@ void gather_extensions(const Json& json, std::set<std::string>& names) {
     }
 }
 
-bool has_rig(const ObjectView& object) {
-    return !object.skeleton.constraints.empty() || !object.chains.empty();
-}
-
-void add_rig(Json& scene, const ObjectView& object, Report& report) {
-    if (!has_rig(object)) return;
-    Json& extras = scene["extras"];
-    if (extras.is_null()) extras = Json::object();
-    if (!extras.is_object()) {
-        report.warn("constraints and chains left out: the scene's extras are not an object that could hold them");
-        return;
-    }
-    extras[kRigInExtras] = parse_json_text<Json>(write_rig(object, false), report);
-}
-
 /// The members of each joint's node that the Scene does not interpret.
 std::vector<Json> read_node_members(const Scene& scene, Report& report) {
     std::vector<Json> members;
@@ -115,12 +97,11 @@ void add_list(Json& root, const char* member, Json list) {
     if (!list.empty()) root[member] = std::move(list);
 }
 
-Json write_scene(const Scene& scene, const ObjectView& object, Json roots, Report& report) {
+Json write_scene(const Scene& scene, Json roots, Report& report) {
     Json written = Json::object();
     add_list(written, "nodes", std::move(roots));
     if (!scene.name.empty()) written["name"] = scene.name;
     gltf_out::add_extras(written, scene.extras, "scene", report);
-    add_rig(written, object, report);
     gltf_out::add_members(written, gltf_out::read_members(scene.more, "HEAD/OBJE/MORE", report), gltf::Element::scene,
                           "scene", report);
     return written;
@@ -178,8 +159,7 @@ private:
     std::vector<std::uint32_t> meshes_;   ///< by mesh: the glTF mesh
 };
 
-GltfAsset write(const Scene& scene, const ObjectView& object, const std::filesystem::path& buffer_file,
-                Report& report) {
+GltfAsset write(const Scene& scene, const std::filesystem::path& buffer_file, Report& report) {
     Json root{{"asset", write_asset(scene, report)}, {"scene", 0}};
     Buffer buffer;
     DocumentNumbers numbers(scene);
@@ -196,10 +176,11 @@ GltfAsset write(const Scene& scene, const ObjectView& object, const std::filesys
     add_list(root, "meshes", std::move(meshes.meshes));
     add_list(root, "skins", std::move(meshes.skins));
     add_list(root, "nodes", std::move(nodes));
-    root["scenes"].push_back(write_scene(scene, object, std::move(roots), report));
+    root["scenes"].push_back(write_scene(scene, std::move(roots), report));
     if (!scene.levels.empty()) report.warn("levels of detail left out: glTF has no place for them");
     gltf_out::add_extras(root, scene.source_extras, "HEAD/EXTR", report);
     gltf_out::add_extensions(root, scene.extensions, extensions::Host::root, std::ref(numbers), "HEAD/EXTN", report);
+    gltf_out::export_rig(scene, root, report);
     gltf_out::add_members(root, gltf_out::read_members(scene.source_more, "HEAD/MORE", report), gltf::Element::root,
                           "HEAD/MORE", report);
     gltf_out::export_curves(scene, animations.animation_of_clip, meshes.node_of_mesh, root, buffer, report);
@@ -224,13 +205,7 @@ GltfAsset export_bytes(Bytes bytes, const std::filesystem::path& buffer_file, Re
         move_links(*scene, bendy_file, options.output, ReadableFolders::of(bendy_file), report);
     if (!options.vertices.empty()) keep_level(*scene, options.vertices);
     for (std::size_t i = 0; i < scene->meshes.size(); ++i) merge_influences(scene->meshes[i], at("meshes", i), report);
-    // Read again for the rig, which is written from the records.
-    Result<ChunkTree> tree = read_chunk_tree(bytes);
-    if (!tree) fail({}, describe_with_place(tree.error(), bytes));
-    decode_leaves(*tree);
-    Faults faults;
-    const Document document = read_document(*tree, faults);
-    return write(*scene, document.objects.front(), buffer_file, report);
+    return write(*scene, buffer_file, report);
 }
 
 void append_u32(std::vector<std::byte>& bytes, std::uint64_t value) {

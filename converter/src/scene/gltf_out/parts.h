@@ -82,6 +82,10 @@ float shift_of(const Clip& clip);
 /// Adds key times, delayed by `shift`, as an accessor.
 std::uint32_t add_times(const std::vector<float>& times, float shift, Buffer& buffer);
 
+/// Adds the joints' constraints as BENDY_joint_limits of their nodes in the document `root`, and the chains as its
+/// BENDY_ik_chains (spec/gltf.md). Floats read back bit for bit.
+void export_rig(const Scene& scene, Json& root, Report& report);
+
 /// Writes materials, textures, samplers and images to the document `root`, with the scene's numbers.
 void export_materials(const Scene& scene, const extensions::NewNumber& numbers, Json& root, Buffer& buffer,
                       Report& report);
