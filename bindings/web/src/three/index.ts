@@ -5,6 +5,7 @@
  */
 export { type AnimatorOptions, type AnimatorPlayOptions, type AnimatorReachOptions, BendyAnimator } from './animator.js';
 export { type BendyCharacter, cloneCharacter, setLevelOfDetail } from './character.js';
+export { type GltfChain, type GltfRig, GltfRigPlugin } from './gltf_rig.js';
 export { BendyLoader } from './loader.js';
 export type { Part } from './parts.js';
 export type { Ktx2Decoder } from './textures.js';
