@@ -2,6 +2,7 @@
 
 import inspect
 import json
+import math
 import os
 import signal
 import subprocess
@@ -38,7 +39,7 @@ def test_convert_takes_the_options_of_the_program():
             bendy.convert(ROOT / "examples/tentacle.glb", **{option: value})
     assert bendy.convert(ROOT / "examples/tentacle.glb", compact=None).report
     with pytest.raises(TypeError, match="no such option"):
-        bendy._bendy.convert("a.glb", None, "", {"speed": 1}, 0, None)
+        bendy._bendy.convert("a.glb", None, "", {"speed": 1}, None, 0, None)
 
 
 def test_compact_conversion(compact, mannequin):
@@ -93,6 +94,26 @@ def test_conversions_that_fail(tmp_path):
         bendy.convert(ROOT / "examples/mannequin.glb", rig=tmp_path / "no_rig.json")
     with pytest.raises(ValueError):
         bendy.convert(ROOT / "examples/mannequin.glb", images="both")
+
+
+def test_a_rig_may_be_a_dict(tmp_path):
+    source = ROOT / "examples/mannequin.glb"
+    rig = {"bendy_rig": 1, "joints": {"*Head": {"model": "hinge", "x": [-10, 20]}}}
+    (tmp_path / "rig.json").write_text(json.dumps(rig))
+    of_file = bendy.convert(source, rig=tmp_path / "rig.json")
+    assert bytes(bendy.convert(source, rig=rig).data) == bytes(of_file.data) != bytes(bendy.convert(source).data)
+    rig["joints"]["*Head"]["x"] = numpy.array([-10, 20], numpy.float32)  # as computed
+    assert bytes(bendy.convert(source, rig=rig).data) == bytes(of_file.data)
+    for wrong in ({}, {"bendy_rig": 2}, {"bendy_rig": 1, "chains": [{"name": "a", "start": "nobody", "effector": "nobody"}]}, {"bendy_rig": math.nan}):
+        (tmp_path / "rig.json").write_text(json.dumps(wrong))
+        errors = []
+        for given in (wrong, tmp_path / "rig.json"):
+            with pytest.raises(bendy.ConversionError) as caught:
+                bendy.convert(source, rig=given)
+            errors.append((caught.value.path, str(caught.value).replace(str(tmp_path / "rig.json"), "rig")))
+        assert errors[0] == errors[1]
+    with pytest.raises(TypeError):
+        bendy.convert(source, rig={"bendy_rig": object()})
 
 
 def test_nothing_is_overwritten_unless_asked(tmp_path, mannequin):

@@ -26,7 +26,8 @@ from . import _bendy
 from ._bendy import __version__
 from ._errors import ConversionError, EditError, Error, InvalidError, MalformedError, RenderError, UnsupportedError
 from ._items import Items
-from ._mesh import Lod, Material, Mesh, MorphTarget, Submesh, Texture
+from ._material import Material, Texture, TextureUse
+from ._mesh import Lod, Mesh, MorphTarget, Submesh
 from ._model import Chain, Clip, Constraint, Curve, FrameSequence, Joint, Marker, Model, Track
 from ._play import Binding, Crossfade, Crowd, Fade, PlayedInterval, Playback, Playing, RootMotion, RootPath, ease
 from ._pose import Pose, ReachRequest, ReachResult
@@ -35,7 +36,7 @@ __all__ = [
     "Binding", "Chain", "Chunk", "Clip", "Constraint", "Conversion", "ConversionError", "Crossfade", "Crowd", "Curve", "Edit",
     "EditError", "Error", "Export", "Fade", "Fault", "Faults", "File", "FrameSequence", "InvalidError", "Items", "Joint", "Lod", "MalformedError", "Marker",
     "Material", "Mesh", "Model", "MorphTarget", "Playback", "PlayedInterval", "Playing", "Pose", "ReachRequest", "ReachResult",
-    "RenderError", "RootMotion", "RootPath", "Submesh", "Texture", "Track", "UnsupportedError", "assemble", "contact_sheet", "convert", "diff",
+    "RenderError", "RootMotion", "RootPath", "Submesh", "Texture", "TextureUse", "Track", "UnsupportedError", "assemble", "contact_sheet", "convert", "diff",
     "dump", "ease", "edit", "encode_png", "export", "inspect", "open", "render", "save_png", "validate",
 ]
 
@@ -295,6 +296,13 @@ def open(source, *, object=0, check_sums=True, copied=False, root=None):
     return model
 
 
+def _plain(value):
+    """NumPy's numbers and arrays as JSON has them."""
+    if isinstance(value, (_np.generic, _np.ndarray)):
+        return value.tolist()
+    raise TypeError(f"a rig cannot hold {value!r}")
+
+
 def convert(source, output=None, *, name="source.glb", jobs=0, progress=None, overwrite=False,
             **options: "convert_options"):
     """Converts glTF, X-files, Quake II models and bendy files to a bendy file, exactly unless compact. Returns a Conversion.
@@ -305,10 +313,14 @@ def convert(source, output=None, *, name="source.glb", jobs=0, progress=None, ov
     and a compact file is made; an exception from it, or a KeyboardInterrupt, ends the conversion there. Raises ConversionError with
     the place in the source, FileNotFoundError, FileExistsError unless overwrite, ValueError.
 
-    The options of `bendy convert`; compact may also be the largest error, "0.1mm" or "0.005%", and scene a number:
+    The options of `bendy convert`; compact may also be the largest error, "0.1mm" or "0.005%", scene a number, and rig a
+    dict with what a rig file holds:
 
     **options
     """
+    rig_text = None
+    if isinstance(rig, dict):
+        rig, rig_text = None, _json.dumps(rig, default=_plain)
     given = dict(locals())
     if output is not None:
         _claim_bendy(output, overwrite, [source, rig, texture])
@@ -327,7 +339,7 @@ def convert(source, output=None, *, name="source.glb", jobs=0, progress=None, ov
         options["scene"] = f"#{scene}"  # "0" could be a name
     if compact is not None and not isinstance(compact, bool):
         options["compact"], options["max_error"] = True, compact
-    made, report, sources = _bendy.convert(file, found, "" if output is None else output, options, jobs, progress)
+    made, report, sources = _bendy.convert(file, found, "" if output is None else output, options, rig_text, jobs, progress)
     if output is not None:
         _claim_bendy(output, overwrite, sources)
         made.write(output)

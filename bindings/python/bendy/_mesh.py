@@ -173,49 +173,6 @@ class Submesh(Part, c.Submesh):
     _kind = "submesh"
 
 
-class Material(WithExtras, c.Material):
-    """A metallic-roughness material; colours are linear."""
-
-    _kind = "material"
-
-    @property
-    def textures(self) -> Dict[str, c.TextureUse]:
-        """Its uses of textures: base_colour, metallic_roughness, normal, occlusion and emissive, as far as it has them. `texture`
-        is a number; set, offset, scale and rotation give the texture coordinates."""
-        uses = {"base_colour": super().base_colour_texture, "metallic_roughness": self.metallic_roughness_texture,
-                "normal": super().normal_texture, "occlusion": self.occlusion_texture, "emissive": self.emissive_texture}
-        return {name: use for name, use in uses.items() if use.texture is not None}
-
-    @property
-    def base_colour_texture(self) -> Optional[int]:
-        """The texture's number, or None."""
-        return super().base_colour_texture.texture
-
-    @property
-    def normal_texture(self) -> Optional[int]:
-        """The texture's number, or None."""
-        return super().normal_texture.texture
-
-
-class Texture(WithExtras, c.Texture):
-    """One or more encodings of an image."""
-
-    _kind = "texture"
-
-    @property
-    def images(self) -> List[Dict[str, Any]]:
-        """In order of preference: a dict with type (png, jpeg, ktx2, webp, avif, other), bytes ((size,) uint8 without a copy, or None),
-        uri (or None), same_as (the number of the texture whose image it is, or None)."""
-        images = []
-        for place in range(super().images):
-            image = c.get_image(self._character.handle, self._number, place)
-            images.append({
-                "type": image.media, "uri": image.uri or None,
-                "same_as": None if (image.texture, image.image) == (self._number, place) else image.texture,
-                "bytes": None if image.bytes is None or image.byte_count == 0 else image.bytes.array(image.byte_count)})
-        return images
-
-
 def _make_lod(character: Character, share: float) -> c.Lod:
     if not share >= 0:
         raise ValueError("share must be 0 to 1")

@@ -13,7 +13,8 @@ from . import _bendy
 from ._bendy import c
 from ._errors import Error
 from ._items import Character, Floats, Items, Part, Vector3, Vector4, WithExtras, floats, parse_json, read_only, row_major
-from ._mesh import Material, Mesh, Submesh, Texture
+from ._material import Material, Texture
+from ._mesh import Mesh, Submesh
 
 if TYPE_CHECKING:
     from . import Conversion

@@ -95,8 +95,8 @@ py::list convert_options() {
 }
 
 py::tuple convert_source(const std::filesystem::path& file, const SourcePointer& source,
-                         const std::filesystem::path& output, const py::dict& given, unsigned jobs,
-                         const py::object& progress) {
+                         const std::filesystem::path& output, const py::dict& given,
+                         const std::optional<std::string>& rig_text, unsigned jobs, const py::object& progress) {
     tools::ConvertArguments arguments = arguments_of(given);
     arguments.jobs = jobs;
     if (!arguments.max_error.empty()) {
@@ -105,6 +105,10 @@ py::tuple convert_source(const std::filesystem::path& file, const SourcePointer&
     }
     converter::ConvertOptions options = tools::options_of(arguments);
     options.output = output;
+    if (rig_text) {
+        options.rig_text = rig_text;
+        options.rig = "rig";  // its name in messages
+    }
     std::exception_ptr stopped;
     double told = -1.0;
     options.progress = [&](double done) {
@@ -416,7 +420,7 @@ py::tuple export_source(const SourcePointer& source, const std::string& format, 
 
 void bind_tools(py::module_& module) {
     module.def("convert", &convert_source, py::arg("file"), py::arg("source"), py::arg("output"), py::arg("options"),
-               py::arg("jobs"), py::arg("progress"), "See bendy.convert.");
+               py::arg("rig_text"), py::arg("jobs"), py::arg("progress"), "See bendy.convert.");
     module.def("convert_options", &convert_options,
                "The names of the options that decide which bytes convert makes, as far as this build has them.");
     module.def(
