@@ -199,7 +199,7 @@ def keep_conversion(folder, source, rig=b""):
 def gather(bendy, out, folders, work):
     sources = [strange_file(work / "strange.gltf")]
     sources += [character(work / f"{name}.gltf", name) for name in ("STEP", "LINEAR", "CUBICSPLINE")]
-    sources += [ROOT / "examples" / name for name in ("tentacle.glb", "mannequin.glb")]
+    sources += [ROOT / name for name in ("examples/tentacle.glb", "examples/mannequin.glb", "spec/gltf/every_field.gltf")]
     for folder in folders:
         sources += sorted(file for suffix in ("glb", "gltf", "vrm") for file in folder.rglob(f"*.{suffix}"))
     for source in sources:

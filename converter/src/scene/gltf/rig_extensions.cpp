@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,7 +24,7 @@ constexpr std::array kFurther{"extensions", "extras"};
 class RigReader {
 public:
     RigReader(const Document& document, const Skeleton& skeleton, Scene& scene)
-        : document_(document), skeleton_(skeleton), scene_(scene), index_(scene) {}
+        : document_(document), skeleton_(skeleton), scene_(scene) {}
 
     void read() {
         for (std::uint32_t joint = 0; joint < scene_.joints.size(); ++joint) {
@@ -92,12 +93,13 @@ private:
     void read_chains(const Json& extension, const std::string& place) {
         const std::string at_chains = place + ".chains";
         OrderedJson list = read_list(extension, "chains", place);
+        index_.emplace(scene_);
         std::unordered_set<std::string> names;
         for (std::size_t i = 0; i < list.size(); ++i) {
             const std::string here = at(at_chains, i);
             guard("chain left out", here, [&] {
                 Chain chain = read_chain(list[i], here);
-                if (!names.insert(chain.name).second) {
+                if (!chain.name.empty() && !names.insert(chain.name).second) {
                     document_.report.warn(
                         "there is an earlier chain " + quote(chain.name) + ": only that one is found by this name",
                         here + ".name");
@@ -121,7 +123,7 @@ private:
             if (fields.find(key) != nullptr) *joint = read_joint(fields, key);
         }
         const ChainRecord& record = chain.record;
-        if (!index_.is_above(record.start, record.effector))
+        if (!index_->is_above(record.start, record.effector))
             fail(fields.place_of("start"), "it is neither the effector nor above it");
         parse_chain_settings(fields, chain.record);
         if (const OrderedJson* weights = fields.find("weights"); weights != nullptr)
@@ -155,7 +157,7 @@ private:
             weight.joint = read_joint(fields, "node");
             fields.read("weight", weight.weight, 0.0f, 1.0f);
             fields.refuse_others();
-            if (!index_.is_above(record.start, weight.joint) || !index_.is_above(weight.joint, record.effector))
+            if (!index_->is_above(record.start, weight.joint) || !index_->is_above(weight.joint, record.effector))
                 fail(fields.place_of("node"), "the node is not of this chain");
             if (!weighted.insert(weight.joint).second) fail(fields.place_of("node"), "the node has an earlier weight");
         }
@@ -165,7 +167,7 @@ private:
     const Document& document_;
     const Skeleton& skeleton_;
     Scene& scene_;
-    JointIndex index_;
+    std::optional<JointIndex> index_;  ///< for chains
 };
 
 }  // namespace
