@@ -126,9 +126,10 @@ private:
         if (!index_->is_above(record.start, record.effector))
             fail(fields.place_of("start"), "it is neither the effector nor above it");
         parse_chain_settings(fields, chain.record);
-        if (const OrderedJson* weights = fields.find("weights"); weights != nullptr)
-            chain.weights =
-                read_weights(need_list(*weights, fields.place_of("weights")), fields.place_of("weights"), record);
+        if (const OrderedJson* weights = fields.find("weights"); weights != nullptr) {
+            const std::string at_weights = fields.place_of("weights");
+            chain.weights = read_weights(need_list(*weights, at_weights), at_weights, record);
+        }
         if (const OrderedJson* extras = fields.find("extras"); extras != nullptr && !extras->is_null())
             chain.extras = extras->dump();
         fields.refuse_others();
