@@ -108,6 +108,8 @@ if wants all; then
     need /usr/include/assimp/Importer.hpp libassimp-dev
     compgen -G '/usr/lib/llvm-*/include/c++/v1/vector' >/dev/null || missing+=(libc++-dev libc++abi-dev)
     need /usr/src/googletest/CMakeLists.txt googletest
+    need glslangValidator glslang-tools
+    need spirv-cross spirv-cross
     need groff groff-base
     need mandoc mandoc
     need fish fish

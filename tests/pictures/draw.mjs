@@ -124,7 +124,7 @@ try {
   const jobs = await (await fetch('/jobs.json')).json();
   for (const [number, job] of jobs.entries()) {
     try {
-      await send(`/picture/${number}`, await draw(job));
+      await send(`/result/${number}`, await draw(job));
     } catch (problem) {
       await send(`/failed/${number}`, String(problem?.stack ?? problem));
     }

@@ -16,7 +16,8 @@ namespace bendy::test {
 /// A glTF file, converted, and the bytes that it lies in.
 class ExampleModel {
 public:
-    explicit ExampleModel(const std::filesystem::path& file) : bytes_(convert(file)), model_(open(bytes_)) {}
+    explicit ExampleModel(const std::filesystem::path& file, const converter::ConvertOptions& options = {})
+        : bytes_(convert(file, options)), model_(open(bytes_)) {}
     ExampleModel(const ExampleModel&) = delete;
     ExampleModel& operator=(const ExampleModel&) = delete;
 
@@ -24,9 +25,9 @@ public:
     const Model* operator->() const { return &model_; }
 
 private:
-    static std::vector<std::byte> convert(const std::filesystem::path& file) {
+    static std::vector<std::byte> convert(const std::filesystem::path& file, const converter::ConvertOptions& options) {
         converter::Report report;
-        auto bytes = converter::convert(file, {}, report);
+        auto bytes = converter::convert(file, options, report);
         if (!bytes) throw std::runtime_error(file.string() + ": " + bytes.error().message);
         return *std::move(bytes);
     }
