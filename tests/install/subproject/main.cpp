@@ -1,3 +1,4 @@
+#include <bendy/format/diagnostics.h>
 #include <bendy/runtime.h>
 
 #include <cstdio>
@@ -5,7 +6,8 @@
 
 int main(int argc, char** argv) {
     const auto model = bendy::Model::open(argc > 1 ? argv[1] : "");
-    if (!model) return std::puts(bendy::code_name(model.error().code)), 1;
+    if (!model)
+        return std::printf("%s: %s\n", bendy::code_name(model.error().code), bendy::describe(model.error()).c_str()), 1;
     bendy::Pose pose(*model);
     std::vector<glm::vec3> positions(model->vertex_count());
     if (!bendy::skin(pose, {.out = {.positions = positions}})) return 1;
