@@ -20,12 +20,18 @@ install_missing() {
     elif sudo -n true 2>/dev/null; then
         as_root=(sudo -n)
     else
-        echo "Missing packages. Install them with: sudo apt-get install ${missing[*]}" >&2
+        echo "Some Debian packages are missing. Install them with: sudo apt-get install ${missing[*]}" >&2
         exit 1
     fi
-    echo "Installing: ${missing[*]}" >&2
-    "${as_root[@]}" apt-get update -qq
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+    echo "Installing from Debian: ${missing[*]}" >&2
+    local log
+    log=$(mktemp)
+    if ! { "${as_root[@]}" apt-get update -qq &&
+        "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+        cat "$log" >&2 # apt also says things that sound alarming and are not: nobody sees them where it works
+        exit 1
+    fi
+    rm -f "$log"
 }
 
 what=${1:-build}

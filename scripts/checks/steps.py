@@ -110,7 +110,8 @@ STEPS = (
          uses=("bendy", "tests/fuzz", "scripts/fuzz.sh", "scripts/cross_dependencies.sh", "bindings/web")),
     Step("determinism", "all", "the same bytes from g++ and clang++, -O0 and -O2", (["scripts/determinism.sh"],),
          uses=("bendy_converter", "tests/determinism", "scripts/determinism.sh")),
-    Step("demo", "all", "what a newcomer runs first", (["scripts/demo.sh"],), uses=("bendy", "scripts/demo.sh", "scripts/setup.sh")),
+    Step("demo", "all", "what a newcomer runs first", (["tests/demo/demo_test.py"],),
+         uses=("bendy", "scripts/demo.sh", "scripts/setup.sh", "tests/demo")),
     Step("faults", "all", "each fault of tests/faults is found by the step that CONTRIBUTING.md names", (["scripts/checks/faults.py"],),
          uses=("tests/faults", "scripts", "CMakePresets.json", "CMakeLists.txt", "cmake", "CONTRIBUTING.md", ".github", ".ci")),
 
