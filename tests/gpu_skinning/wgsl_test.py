@@ -26,7 +26,8 @@ from bendy._bendy import c  # noqa: E402
 SKIPPED = 77
 TOLERANCE = 1e-5  # of the longer of 1 and the character's diagonal
 FLAGS = ("--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader")
-CORPUS = ("models/fox.glb", "models/cesium_man.gltf", "models/robot.glb", "generated/joints8.glb", "generated/joints_300.glb")
+CORPUS = ("models/fox.glb", "models/cesium_man.gltf", "models/robot.glb", "generated/joints8.glb", "generated/joints_300.glb",
+          "generated/attributes_zoo.glb", "generated/weights_u8_joints_u8.glb")
 
 
 def text_of(array):

@@ -1,5 +1,6 @@
 // examples/gpu_skinning/skinning.glsl, run by OpenGL, held against the runtime's own skinning.
 #include "opengl.h"
+#include "runtime/build_model.h"
 #include "viewer/example_model.h"
 
 #include <bendy/viewer/picture.h>
@@ -392,29 +393,33 @@ protected:
         }
     }
 
-    /// The rest pose with all morph targets, the middle of each clip, and a pose with a stretched, a mirrored and a
-    /// flat joint.
-    void check_file(const std::filesystem::path& file, const converter::ConvertOptions& options = {}) const {
-        if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
-        const test::ExampleModel model(file, options);
-        Pose pose(*model);
+    /// The rest pose with all morph targets, the middle of each clip, and a pose whose joints are scaled.
+    void check(const Model& model) const {
+        Pose pose(model);
         float weight = 0.2f;
         for (float& morph : pose.change_morph_weights()) morph = weight += 0.3f;
         check(pose, "rest");
-        for (const Clip& clip : model->clips()) {
+        for (const Clip& clip : model.clips()) {
             ASSERT_TRUE(sample(pose, &clip, 0.37f * clip.start + 0.63f * clip.end));
             check(pose, std::string(clip.name));
         }
-        const std::array<glm::vec3, 3> scales{glm::vec3(1.3f, 0.8f, 1.1f), glm::vec3(-1.0f, 1.0f, 1.0f),
-                                              glm::vec3(0.0f)};
-        const auto joints = static_cast<std::uint32_t>(model->joints().size());
-        for (std::uint32_t k = 0; k < scales.size(); ++k) {
-            const std::uint32_t joint = joints * (k + 1) / 4;
-            JointTransform transform = pose.local(joint);
-            transform.scale = scales.at(k);
-            pose.set_local(joint, transform);
-        }
-        check(pose, "stretched");
+        // All of them; then stretched, mirrored, and to a point.
+        constexpr std::array<glm::vec3, 4> kScales{glm::vec3(1.5f), glm::vec3(1.3f, 0.8f, 1.1f),
+                                                   glm::vec3(-1.0f, 1.0f, 1.0f), glm::vec3(0.0f)};
+        const auto joints = static_cast<std::uint32_t>(model.joints().size());
+        for (std::uint32_t k = 0; k < kScales.size(); ++k)
+            scale(pose, joints * k / static_cast<std::uint32_t>(kScales.size()), kScales.at(k));
+        check(pose, "scaled");
+    }
+    static void scale(Pose& pose, std::uint32_t joint, const glm::vec3& by) {
+        JointTransform transform = pose.local(joint);
+        transform.scale = by;
+        pose.set_local(joint, transform);
+    }
+    void check_file(const std::filesystem::path& file, const converter::ConvertOptions& options = {}) const {
+        if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+        const test::ExampleModel model(file, options);
+        check(*model);
     }
 
     std::unique_ptr<OffscreenContext> context;
@@ -449,6 +454,43 @@ TEST_F(GpuSkinning, ThreeHundredJoints) {
 }
 TEST_F(GpuSkinning, TargetsAndSkin) {
     check_file(test::corpus("generated/morph_and_skin.glb"));
+}
+
+TEST_F(GpuSkinning, Tangents) {
+    check_file(test::corpus("generated/attributes_zoo.glb"));
+}
+TEST_F(GpuSkinning, WeightsOfOneByte) {
+    check_file(test::corpus("generated/weights_u8_joints_u8.glb"));
+}
+TEST_F(GpuSkinning, TwoBytesATangentThatIsDisplacedAndAFlatBone) {
+    constexpr std::uint16_t kWhole = 65535;
+    test::ModelSpec spec;
+    spec.joints.push_back({kNone, test::turned(70.0, 2), {test::submesh(0, 0, 3)}, "a"});
+    spec.joints.push_back({0, test::turned(-40.0, 1), {}, "b"});
+    test::MeshSpec mesh;
+    mesh.positions = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
+    mesh.normals = {{0.0f, 0.0f, 1.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
+    mesh.tangents = {{1.0f, 0.0f, 0.0f, 1.0f}, {0.0f, 1.0f, 0.0f, -1.0f}, {1.0f, 0.0f, 0.0f, 1.0f}};
+    mesh.indices = {0, 1, 2};
+    const std::vector<std::uint16_t> bones{1, 0, 0, 1, 1, 0};
+    const std::vector<std::uint16_t> weights{kWhole, 0, 20000, kWhole - 20000, 31, kWhole - 31};
+    const std::vector<std::uint16_t> displaced{1, 2};
+    const std::vector<glm::vec3> displacements{{0.5f, 0.1f, 0.0f}, {0.0f, 0.3f, 0.4f}};
+    mesh.more = {
+        test::make_container(FourCC("TARG"), {test::make_leaf(FourCC("TINF"), bytes_of(MorphTargetRecord{})),
+                                              test::make_leaf(FourCC("INDX"), test::stream_payload(1, displaced)),
+                                              test::vector_stream(FourCC("POSI"), displacements),
+                                              test::vector_stream(FourCC("NORM"), displacements),
+                                              test::vector_stream(FourCC("TANG"), displacements)}),
+        test::palette_leaf({0, 1}, {glm::mat4(1.0f), glm::mat4(1.0f)}),
+        test::make_leaf(FourCC("BONE"), test::stream_payload(2, bones)),
+        test::make_leaf(FourCC("WGHT"), test::stream_payload(2, weights, true))};
+    spec.meshes.push_back(mesh);
+    const test::Owned model(test::build_file(spec));
+    check(*model);
+    Pose pose(*model);
+    scale(pose, 1, {1.0f, 0.0f, 1.0f});  // flat: elsewhere rounding decides on which side the normals are
+    check(pose, "flat");
 }
 
 TEST_F(GpuSkinning, ACrowdIsDrawnByOneCall) {
