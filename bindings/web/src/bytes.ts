@@ -8,7 +8,7 @@ export function asBytes(source: unknown): Uint8Array {
   if (tag === '[object ArrayBuffer]' || tag === '[object SharedArrayBuffer]') return new Uint8Array(source as ArrayBuffer);
   const found =
     typeof source === 'string' || source instanceof URL
-      ? `the address ${JSON.stringify(String(source))}: fetch it first, await (await fetch(address)).arrayBuffer()`
+      ? `the address ${JSON.stringify(String(source))}, which only Model.open fetches: await (await fetch(address)).arrayBuffer()`
       : typeof source === 'object' && source !== null
         ? `an object of type ${tag.slice(8, -1)}, which is not its bytes: await its arrayBuffer() first`
         : String(source);

@@ -3,10 +3,11 @@ import type { Status } from './generated/bindings.js';
 /**
  * The kind of an error. In a file: `malformed` (damaged, or not a bendy file), `invalid` (its structure is valid, its content
  * is not), `unsupported` (valid, but this version cannot read it). In a call: `bad_argument`, `not_found`, `out_of_memory`,
- * `disposed`. In the module: `io` (it could not be loaded). In the tools: `conversion` (the source cannot be converted), `edit` (the
+ * `disposed`. Outside: `io` (a file or the module could not be loaded), `stopped` (the module has stopped by a fault of its own, and
+ * the next call loads it anew). In the tools: `conversion` (the source cannot be converted), `edit` (the
  * file cannot be changed in this way).
  */
-export type ErrorKind = Exclude<Status, 'ok'> | 'disposed' | 'conversion' | 'edit';
+export type ErrorKind = Exclude<Status, 'ok'> | 'disposed' | 'stopped' | 'conversion' | 'edit';
 
 /** Every error that this package throws. */
 export class BendyError extends Error {

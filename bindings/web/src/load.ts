@@ -1,4 +1,5 @@
 import { BendyError } from './errors.js';
+import { compileModule, ioError } from './fetch.js';
 import type { Functions } from './generated/bindings.js';
 import { Runtime } from './runtime.js';
 
@@ -6,7 +7,8 @@ import { Runtime } from './runtime.js';
 export interface LoadOptions {
   /**
    * The WebAssembly module to use instead of the one in this package: its bytes, its address, or the compiled module. It must be
-   * of the same version.
+   * of the same version. The package has both as files: `bendy/bendy.wasm`, and without SIMD `bendy/bendy-plain.wasm`. A module
+   * from an address is compiled while it arrives.
    */
   wasm?: BufferSource | string | URL | WebAssembly.Module;
   /** Whether to use SIMD; by default, if the engine has it. With `wasm`, it says which instructions that module uses. */
@@ -33,14 +35,10 @@ export function decodeModule(text: string): Uint8Array<ArrayBuffer> {
 
 async function compile(wasm: LoadOptions['wasm'], simd: boolean): Promise<WebAssembly.Module> {
   if (wasm instanceof WebAssembly.Module) return wasm;
-  if (typeof wasm === 'string' || wasm instanceof URL) {
-    const response = await fetch(wasm);
-    if (!response.ok) throw new BendyError('io', `${String(wasm)}: ${response.status} ${response.statusText}`);
-    return WebAssembly.compile(await response.arrayBuffer());
-  }
-  if (wasm !== undefined) return WebAssembly.compile(wasm);
-  const embedded = simd ? await import('./generated/simd.js') : await import('./generated/plain.js');
-  return WebAssembly.compile(decodeModule(embedded.default));
+  if (wasm !== undefined) return compileModule(wasm);
+  // In the bundle of one file, bundle.mjs puts the address of the plain module in the place of its text.
+  const embedded: { default: string | URL } = await (simd ? import('./generated/simd.js') : import('./generated/plain.js'));
+  return compileModule(typeof embedded.default === 'string' ? decodeModule(embedded.default) : embedded.default);
 }
 
 /** @internal The module's imports: it has no environment, and its memory is viewed anew before every use. */
@@ -57,27 +55,31 @@ export function imports(memory: () => WebAssembly.Memory): WebAssembly.Imports {
       environ_sizes_get: noEnvironment,
       environ_get: () => 0,
       proc_exit: (status: number) => {
-        throw new Error(`the module has ended with status ${status}`);
+        throw new BendyError('stopped', `the module has ended with status ${status}`);
       },
     },
   };
 }
 
 /**
- * Makes an instance of the module, with a memory of its own, for `Model.open`. Throws IO if `wasm` cannot be fetched, and
- * WebAssembly.CompileError if the engine cannot compile it.
+ * Makes an instance of the module, with a memory of its own, for `Model.open`. Throws IO if `wasm` cannot be fetched, or the
+ * engine cannot compile it, for instance because a content security policy forbids it.
  */
 export async function loadRuntime(options: LoadOptions = {}): Promise<Runtime> {
   const simd = options.simd ?? hasSimd();
   const module = await compile(options.wasm, simd);
   let functions: Functions;
-  const instance = await WebAssembly.instantiate(
-    module,
-    imports(() => functions.memory),
-  );
-  functions = instance.exports as unknown as Functions;
-  functions._initialize();
-  return new Runtime(functions, simd);
+  try {
+    const instance = await WebAssembly.instantiate(
+      module,
+      imports(() => functions.memory),
+    );
+    functions = instance.exports as unknown as Functions;
+    functions._initialize();
+    return new Runtime(functions, simd);
+  } catch (error) {
+    throw ioError('the WebAssembly module is not one of this package, or there is no memory for it', error);
+  }
 }
 
 let starting: Promise<Runtime> | undefined;

@@ -1,6 +1,7 @@
 import { asBytes } from './bytes.js';
 import { Clip } from './clip.js';
 import { BendyError } from './errors.js';
+import { fetchBytes } from './fetch.js';
 import type { BendyOpenOptions } from './generated/bindings.js';
 import { checkIndex, indexOwn, Items, type Key } from './items.js';
 import { init, loadedRuntime } from './load.js';
@@ -74,12 +75,14 @@ export class Model extends Handle {
   }
 
   /**
-   * Opens a bendy file, loading the module if `init` has not. The bytes are copied into the module's memory. Rejects with a
-   * BendyError: MALFORMED, INVALID or UNSUPPORTED kinds with code, path and offset; OUT_OF_MEMORY; BAD_ARGUMENT for anything but
-   * bytes, such as a URL.
+   * Opens a bendy file, given as its bytes or as an address to fetch, loading the module if `init` has not. The bytes are copied
+   * into the module's memory. Rejects with a BendyError: MALFORMED, INVALID or UNSUPPORTED kinds with code, path and offset; IO if
+   * file or module cannot be fetched; OUT_OF_MEMORY; BAD_ARGUMENT for anything else.
    */
-  static async open(bytes: ArrayBuffer | Uint8Array, options: OpenOptions = {}): Promise<Model> {
-    return Model.openSync(bytes, { ...options, runtime: options.runtime ?? (await init()) });
+  static async open(source: ArrayBuffer | Uint8Array | string | URL, options: OpenOptions = {}): Promise<Model> {
+    const isAddress = typeof source === 'string' || source instanceof URL;
+    const [bytes, runtime] = await Promise.all([isAddress ? fetchBytes(source) : source, options.runtime ?? init()]);
+    return Model.openSync(bytes, { ...options, runtime });
   }
 
   /** As `open`, synchronously. Throws the same errors, and BAD_ARGUMENT before `init` is done. */

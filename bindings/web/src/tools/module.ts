@@ -1,4 +1,5 @@
 import { BendyError, type ErrorKind } from '../errors.js';
+import { compileModule, ioError } from '../fetch.js';
 import { decodeModule } from '../load.js';
 
 /** @internal The part of emscripten's file system that is used here. */
@@ -43,24 +44,28 @@ let starting: Promise<Instance> | undefined;
 
 async function compile(): Promise<WebAssembly.Module> {
   const embedded = await import('../generated/tools.js');
-  return WebAssembly.compile(decodeModule(embedded.default));
+  return compileModule(decodeModule(embedded.default));
 }
 
 async function start(): Promise<Instance> {
   compiling ??= compile();
   const [module, glue] = await Promise.all([compiling, import('../generated/tools_glue.js')]);
   let memory: WebAssembly.Memory | undefined;
-  const instance = (await glue.default({
-    instantiateWasm(imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void): object {
-      void WebAssembly.instantiate(module, imports).then((made) => {
-        memory = Object.values(made.exports).find((one) => one instanceof WebAssembly.Memory);
-        done(made);
-      });
-      return {};
-    },
-    print() {},
-    printErr() {},
-  })) as Instance;
+  const instance = await new Promise<Instance>((resolve, reject) => {
+    const made = glue.default({
+      instantiateWasm(imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance) => void): object {
+        const started = WebAssembly.instantiate(module, imports).then((instance) => {
+          memory = Object.values(instance.exports).find((one) => one instanceof WebAssembly.Memory);
+          done(instance);
+        });
+        started.catch(reject); // emscripten would wait for ever
+        return {};
+      },
+      print() {},
+      printErr() {},
+    }) as Promise<Instance>;
+    made.then(resolve, reject);
+  });
   instance.memory = memory!;
   instance.FS.mkdir('/given');
   return instance;
@@ -69,7 +74,7 @@ async function start(): Promise<Instance> {
 function load(): Promise<Instance> {
   starting ??= start().catch((error: unknown) => {
     compiling = starting = undefined;
-    throw error;
+    throw error instanceof BendyError ? error : ioError('the module of the tools cannot be started', error);
   });
   return starting;
 }
@@ -135,10 +140,10 @@ export async function runTool<T>(request: object, inputs: Inputs, progress?: (sh
     if (thrown !== undefined) throw thrown.error;
     return answer;
   } catch (error) {
-    // After a trap the instance's memory is in an unknown state.
-    if (!(error instanceof BendyError)) starting = undefined;
-    if (error instanceof RangeError) throw new BendyError('out_of_memory', error.message);
-    throw error;
+    if (error instanceof BendyError || error === thrown?.error) throw error;
+    starting = undefined; // after a trap the instance's memory is in an unknown state
+    const kind = error instanceof RangeError ? 'out_of_memory' : 'stopped';
+    throw Object.assign(new BendyError(kind, `the module has stopped: ${String(error)}`), { cause: error });
   } finally {
     if (instance.memory.buffer.byteLength > mostMemory) starting = undefined;
   }
