@@ -96,6 +96,7 @@ def main():
         module = next((unpacked / "bendy").glob("_bendy*.so"))
         info = next(unpacked.glob("*.dist-info"))
         libraries = bundle(module, unpacked / "bendy.libs", info / "licenses")
+        (info / "licenses/NOTICES.txt").write_text(run(sys.executable, "-B", ROOT / "scripts/notices.py", "wheel"), encoding="utf-8")
         tag = f"manylinux_2_{oldest_glibc([module, *libraries])}_{platform.machine()}"
         text = (info / "WHEEL").read_text()
         (info / "WHEEL").write_text(re.sub(r"^(Tag: .*-)linux_\w+$", rf"\g<1>{tag}", text, flags=re.MULTILINE))

@@ -12,6 +12,10 @@ strip -o build/static/bendy build/static/cli/bendy
 
 needed=$(readelf -d build/static/bendy | grep NEEDED || true)
 [ -z "$needed" ] || { echo "needs shared libraries: $needed" >&2; exit 1; }
+# What a release of the program has beside it.
+scripts/notices.py static --check build/static:cli/bendy
+scripts/notices.py static >build/static/NOTICES.txt
+cp LICENSE build/static/
 # Try it where there is nothing but the kernel: in an empty root folder.
 rm -rf build/static/empty
 mkdir -p build/static/empty

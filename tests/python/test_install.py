@@ -59,7 +59,11 @@ def test_a_wheel_contains_the_libraries(tmp_path):
         archive.extractall(tmp_path / "site")
     bundled = {path.name.split("-")[0] for path in (tmp_path / "site/bendy.libs").iterdir()}
     assert {"libzstd", "libmeshoptimizer", "libdraco"} <= bundled
-    assert {path.stem for path in (tmp_path / "site").glob("*.dist-info/licenses/*.txt")} == bundled
+    licences = {path.stem: path for path in (tmp_path / "site").glob("*.dist-info/licenses/*.txt")}
+    assert set(licences) == {*bundled, "NOTICES"} and "Copyright" in licences["NOTICES"].read_text(encoding="utf-8")
+    assert list((tmp_path / "site").glob("*.dist-info/**/LICENSE"))
+    subprocess.run([sys.executable, ROOT / "scripts/notices.py", "wheel", "--check", f"{os.environ['BENDY_BUILD_DIR']}:bendy_python"],
+                   check=True)
     # ctypes.CDLL loads the module as an import does, and nothing of numpy's.
     module, = (tmp_path / "site/bendy").glob("_bendy*.so")
     script = (f"import ctypes; before = open('/proc/self/maps').read(); ctypes.CDLL({str(module)!r})\n"

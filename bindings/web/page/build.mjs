@@ -1,5 +1,6 @@
 // Makes dist/page.html, one file that needs no server: node page/build.mjs EXAMPLE.bendy
 import { readFile, writeFile } from 'node:fs/promises';
+import { execFileSync } from 'node:child_process';
 import { build } from 'esbuild';
 
 const here = (name) => new URL(name, import.meta.url);
@@ -31,4 +32,9 @@ const parts = {
 };
 let page = await readFile(here('index.html'), 'utf8');
 for (const [mark, text] of Object.entries(parts)) page = page.replace(mark, () => text);
+// Whoever copies the page copies the licences of what is in it.
+const notices = execFileSync('python3', ['-B', here('../../../scripts/notices.py').pathname, 'page'], { encoding: 'utf8' });
+const licences = `${await readFile(here('../../../LICENSE'), 'utf8')}\n${notices}`;
+const end = page.lastIndexOf('</body>');
+page = `${page.slice(0, end)}<script type="text/plain" id="licences">\n${licences.replaceAll('</script', '<\\/script')}</script>\n${page.slice(end)}`;
 await writeFile(here('../dist/page.html'), page);
