@@ -26,9 +26,9 @@ for system in "${systems[@]}"; do
 done
 cp build/cross/web/build/web/{bindings,classes}.ts bindings/web/src/generated/
 cd bindings/web
-[ -e node_modules/puppeteer-core ] || npm ci --silent
+[ -e node_modules/playcanvas ] || npm ci --silent
 node embed.mjs ../../build/cross/web/build/web/bendy.wasm src/generated/simd.ts 160000
-node embed.mjs ../../build/cross/web-plain/build/web/bendy.wasm src/generated/plain.ts 170000 # four lanes, one after the other, are more code
+node embed.mjs ../../build/cross/web-plain/build/web/bendy.wasm src/generated/plain.ts 170000
 rm -rf dist
 if [ "$what" = runtime ]; then
     npx --no-install tsc -p tsconfig.runtime.json
@@ -38,7 +38,10 @@ tools=../../build/cross/web-tools/build/web/tools
 { echo '// @ts-nocheck'; cat "$tools/tools.js"; } >src/generated/tools_glue.ts
 node embed.mjs "$tools/tools.wasm" src/generated/tools.ts 900000
 python3 ../convert_options.py src/generated/convert_options.ts
+[ -e test/compilers/node_modules/oldest ] || (cd test/compilers && npm ci --silent)
 npm run --silent build
+../../scripts/notices.py npm --check ../../build/cross/{web/build:web/bendy.wasm,web-plain/build:web/bendy.wasm,web-tools/build:web/tools/tools.js} dist/bundle/inputs.txt
+../../scripts/notices.py page --check ../../build/cross/{web/build:web/bendy.wasm,web-tools/build:web/tools/tools.js} dist/bundle/inputs.txt
 npx --no-install tsc -p page
 "$BENDY_PROGRAM" convert ../../examples/mannequin.glb --rig page/example.rig.json --lod --quiet -o dist/example.bendy
 node page/build.mjs dist/example.bendy

@@ -1,3 +1,4 @@
+/// <reference lib="esnext.disposable" preserve="true" />
 import { BendyError, type ErrorKind } from './errors.js';
 import { Calls, errorLayout, type Functions, readBendyError } from './generated/bindings.js';
 import type { Model } from './model.js';

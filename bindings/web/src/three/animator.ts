@@ -17,13 +17,12 @@ import {
   type Clip,
   CrossFade,
   type Key,
-  type PlayOptions,
-  Playback,
   type Pose,
   type ReachOptions,
   type ReachResult,
   type SkinOptions,
 } from '../index.js';
+import { type ClipOptions, startClip } from '../engines/player.js';
 import type { BendyCharacter } from './character.js';
 import { withIndex } from './parts.js';
 
@@ -39,12 +38,7 @@ export interface AnimatorOptions {
 }
 
 /** Options of `BendyAnimator.play`. */
-export interface AnimatorPlayOptions extends Omit<PlayOptions, 'playback'> {
-  /** 1, if not given: as authored. */
-  speed?: number;
-  /** Whether the clip repeats; as the clip says if not given. */
-  loop?: boolean;
-}
+export interface AnimatorPlayOptions extends ClipOptions {}
 
 /** Options of `BendyAnimator.reach`. */
 export interface AnimatorReachOptions extends Omit<ReachOptions, 'rotation' | 'pole'> {
@@ -119,16 +113,7 @@ export class BendyAnimator {
 
   /** Starts a clip, which `update` plays and which fades in over what plays now. Throws NOT_FOUND, BAD_ARGUMENT. */
   play(clip: Key<Clip>, options: AnimatorPlayOptions = {}): this {
-    const { speed, loop, ...rest } = options;
-    const playback = new Playback(this.character.model, clip);
-    try {
-      if (speed !== undefined) playback.speed = speed;
-      if (loop !== undefined) playback.mode = loop ? 'repeat' : 'once';
-      if (playback.speed < 0) playback.seekShare(1);
-      this.#fade.play(clip, { ...rest, playback });
-    } finally {
-      playback.dispose();
-    }
+    startClip(this.#fade, clip, options);
     return this;
   }
 

@@ -1,0 +1,101 @@
+// What package.json and README.md promise: files that are there, links that lead somewhere, types for old and new TypeScript.
+import assert from 'node:assert/strict';
+import { execFileSync, spawnSync } from 'node:child_process';
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import { repository } from './helpers.mjs';
+
+const web = join(repository, 'bindings/web');
+const description = JSON.parse(readFileSync(join(web, 'package.json'), 'utf8'));
+const packed = JSON.parse(execFileSync('npm', ['pack', '--dry-run', '--json', '--silent'], { cwd: web, encoding: 'utf8' }))[0].files.map(({ path }) => path);
+const folder = mkdtempSync(join(tmpdir(), 'bendy-package-'));
+after(() => rmSync(folder, { recursive: true }));
+
+test('every export is in the package, and README.md lists it', () => {
+  const readme = readFileSync(join(web, 'README.md'), 'utf8');
+  for (const [name, target] of Object.entries(description.exports)) {
+    for (const path of typeof target === 'string' ? [target] : Object.values(target)) {
+      const pattern = new RegExp(`^${path.slice(2).replaceAll('.', '\\.').replace('*', '.+')}$`);
+      assert.ok(packed.some((file) => pattern.test(file)), `${name}: ${path}`);
+    }
+    if (name !== './package.json' && !name.includes('*')) assert.ok(readme.includes(`\`bendy${name.slice(1)}\``), name);
+  }
+  assert.deepEqual([description.unpkg, description.jsdelivr].filter((path) => !packed.includes(path.slice(2))), []);
+});
+
+test('README.md has no link that leads out of the package, and none that is dead', () => {
+  const links = [...readFileSync(join(web, 'README.md'), 'utf8').matchAll(/\]\(([^)#]+)[^)]*\)/g)].map(([, link]) => link);
+  assert.ok(links.length > 0);
+  assert.deepEqual(links.filter((link) => !packed.includes(link)), []);
+});
+
+test('the package says whose it is, and has its licence and those of others', () => {
+  for (const name of ['LICENSE', 'NOTICES.txt', 'README.md']) assert.ok(packed.includes(name), name);
+  assert.equal(readFileSync(join(web, 'LICENSE'), 'utf8'), readFileSync(join(repository, 'LICENSE'), 'utf8'));
+  const notices = readFileSync(join(web, 'NOTICES.txt'), 'utf8');
+  for (const name of ['Zstandard', 'meshoptimizer', 'Draco', 'three.js']) assert.ok(notices.includes(`\n${name}\n`), name);
+  assert.ok(description.homepage.startsWith('https://') && description.repository.url.includes(new URL(description.homepage).host));
+  assert.equal(description.repository.directory, 'bindings/web');
+  for (const peer of Object.keys(description.peerDependencies)) {
+    assert.ok(description.peerDependenciesMeta[peer].optional && description.devDependencies[peer], peer);
+  }
+  const page = join(web, 'dist/page.html');
+  if (existsSync(page)) assert.match(readFileSync(page, 'utf8'), /<script type="text\/plain" id="licences">\nMIT License/);
+});
+
+/** Compiles a module of TypeScript with a compiler of test/compilers, libraries checked too; returns what it says. */
+function compile(compiler, code, packages = []) {
+  const project = mkdtempSync(join(folder, 'types-'));
+  mkdirSync(join(project, 'node_modules/@types'), { recursive: true });
+  symlinkSync(web, join(project, 'node_modules/bendy'));
+  for (const name of packages) symlinkSync(join(web, 'node_modules', name), join(project, 'node_modules', name));
+  writeFileSync(join(project, 'package.json'), '{"type": "module"}');
+  writeFileSync(join(project, 'main.ts'), code);
+  const options = { strict: true, target: 'es2022', lib: ['es2022', 'dom'], module: 'nodenext', skipLibCheck: false, noEmit: true, types: [], preserveSymlinks: true };
+  writeFileSync(join(project, 'tsconfig.json'), JSON.stringify({ compilerOptions: options, files: ['main.ts'] }));
+  const { stdout, status } = spawnSync(process.execPath, [join(web, 'test/compilers/node_modules', compiler, 'bin/tsc'), '-p', project], { encoding: 'utf8' });
+  assert.equal(status === 0, stdout === '');
+  return stdout.split('\n').filter((line) => line !== '');
+}
+
+const uses = `import { BendyError, type Clip, Model } from 'bendy';
+  import { convert } from 'bendy/tools';
+  const model: Model = await Model.open('fox.bendy');
+  const clips: readonly Clip[] = model.clips;
+  const positions: Float32Array = model.sample(clips[0]!, 0).skin().positions;
+  const bytes: Uint8Array = (await convert(new Uint8Array(1))).bytes;
+  const kind: BendyError['kind'] = 'malformed';
+  new Blob([positions, bytes]);
+  console.log(kind);
+`;
+
+for (const compiler of ['oldest', 'newest']) {
+  const { version } = JSON.parse(readFileSync(join(web, 'test/compilers/node_modules', compiler, 'package.json'), 'utf8'));
+  test(`types for TypeScript ${version}, libraries checked too`, () => {
+    assert.deepEqual(compile(compiler, compiler === 'newest' ? uses.replaceAll(': Float32Array', '').replaceAll(': Uint8Array', '') : uses), []);
+    const [wrong] = compile(compiler, `import { Model } from 'bendy';\nconst model: string = await Model.open(7);\n`);
+    assert.match(wrong, /main\.ts.*TS2322/);
+  });
+
+  test(`types of viewer and adapters for TypeScript ${version}`, () => {
+    // Babylon.js and PlayCanvas have types for later versions than the oldest.
+    const engines = compiler === 'newest' ? ['babylon', 'playcanvas'] : [];
+    const code = `import { BendyLoader } from 'bendy/three';
+      import { BendyViewerElement } from 'bendy/viewer';
+      import { BendyViewer } from 'bendy/react';
+      import { Bendy } from 'bendy/react-three-fiber';
+      ${engines.map((name) => `import * as ${name} from 'bendy/${name}';`).join('\n')}
+      const viewer: BendyViewerElement = document.createElement('bendy-viewer');
+      viewer.addEventListener('error', ({ detail }) => console.log(detail.kind));
+      const wrong: string = BendyViewer;
+      console.log(BendyLoader, Bendy, wrong, ${engines.join()});
+    `;
+    const said = compile(compiler, code, ['three', '@types/three', '@types/react', 'react', '@react-three', '@babylonjs', 'playcanvas']);
+    // The declarations of engines have errors of their own.
+    const ours = said.filter((line) => /main\.ts\(|bendy\/dist\//.test(line));
+    assert.equal(ours.length, 1, ours.slice(0, 5).join('\n'));
+    assert.match(ours[0], /main\.ts.*TS2322/);
+  });
+}

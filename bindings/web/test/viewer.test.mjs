@@ -1,0 +1,183 @@
+// The element <bendy-viewer> in a page without a bundler: a folder with the bundle, a character and nothing else.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { after, before, beforeEach, test } from 'node:test';
+import { launch, openTab, serve, skip } from './browser.mjs';
+import { example, repository } from './helpers.mjs';
+
+const bundle = readFileSync(new URL('../dist/bundle/bendy-viewer.js', import.meta.url));
+const poster = readFileSync(`${repository}/docs/pictures/page.png`);
+const page = `<!doctype html><html lang="en"><meta charset="utf-8"><title>Viewer</title><link rel="icon" href="data:,">
+<meta http-equiv="content-security-policy" content="default-src 'self' data: blob:; script-src 'self' 'wasm-unsafe-eval' 'unsafe-inline'; style-src 'self'">
+<script type="module" src="bendy-viewer.js"></script><body></body></html>`;
+let browser, server, tab, problems;
+
+before(async () => {
+  if (skip) return;
+  const files = { 'mannequin.bendy': readFileSync(example('mannequin')), 'tentacle.bendy': readFileSync(example('tentacle')) };
+  server = await serve({ 'index.html': page, 'bendy-viewer.js': bundle, 'poster.png': poster, 'broken.bendy': 'this is no character', ...files });
+  browser = await launch();
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+beforeEach(async () => {
+  if (skip) return;
+  await tab?.close();
+  ({ tab, problems } = await openTab(browser));
+  await tab.goto(`${server.address}index.html`, { timeout: 120_000 });
+  server.requests.length = 0;
+});
+
+/** Adds a viewer with these attributes, and returns its first load or error. */
+const show = (attributes) =>
+  tab.evaluate(async (given) => {
+    await customElements.whenDefined('bendy-viewer');
+    const viewer = document.createElement('bendy-viewer');
+    globalThis.seen = [];
+    for (const type of ['load', 'error', 'progress']) viewer.addEventListener(type, (event) => seen.push([type, event.detail]));
+    for (const [name, value] of Object.entries(given)) viewer.setAttribute(name, value);
+    document.body.append(viewer);
+    globalThis.viewer = viewer;
+    await new Promise((resolve) => ['load', 'error'].forEach((type) => viewer.addEventListener(type, resolve, { once: true })));
+    const [type, detail] = seen.at(-1);
+    return type === 'load' ? { type } : { type, name: detail.name, kind: detail.kind, code: detail.code, message: detail.message };
+  }, attributes);
+
+const frames = (count) =>
+  tab.evaluate((left) => new Promise((resolve) => (function next() { left-- > 0 ? requestAnimationFrame(next) : resolve(); })()), count);
+
+/** How many of the picture's pixels are drawn. */
+const drawn = () =>
+  tab.evaluate(() => {
+    const canvas = viewer.shadowRoot.querySelector('canvas');
+    return new Promise((resolve) =>
+      requestAnimationFrame(() => {
+        viewer.animator?.apply();
+        const copy = Object.assign(document.createElement('canvas'), { width: 100, height: 100 });
+        const context = copy.getContext('2d');
+        viewer.clip = viewer.clip; // draws in the next frame
+        requestAnimationFrame(() => {
+          context.drawImage(canvas, 0, 0, 100, 100);
+          const { data } = context.getImageData(0, 0, 100, 100);
+          resolve(data.filter((_, k) => k % 4 === 3).reduce((sum, alpha) => sum + (alpha > 128 ? 1 : 0), 0));
+        });
+      }),
+    );
+  });
+
+test('it shows a character from one file of script, which plays', { skip }, async () => {
+  assert.deepEqual(await show({ src: 'mannequin.bendy', clip: 'Walk', alt: 'A mannequin that walks', poster: 'poster.png' }), { type: 'load' });
+  assert.deepEqual(server.requests.toSorted(), ['mannequin.bendy', 'poster.png']);
+  assert.ok((await drawn()) > 300);
+  const hand = () => tab.evaluate(() => viewer.character.scene.getObjectByName('mixamorigLeftArm').quaternion.toArray().join());
+  const first = await hand();
+  await frames(5);
+  assert.notEqual(await hand(), first);
+  await tab.evaluate(() => viewer.pause());
+  await frames(2);
+  const still = await hand();
+  await frames(5);
+  assert.equal(await hand(), still);
+  assert.deepEqual(await tab.evaluate(() => [viewer.clips, viewer.paused, viewer.hasAttribute('paused'), viewer.src, viewer.alt]), [
+    ['Idle', 'Walk'], true, true, 'mannequin.bendy', 'A mannequin that walks',
+  ]);
+  const progress = await tab.evaluate(() => seen.filter(([type]) => type === 'progress').map(([, detail]) => detail.loaded));
+  assert.ok(progress.at(-1) > 10000);
+  assert.ok(await tab.evaluate(() => viewer.shadowRoot.querySelector('img').hidden), 'the poster has gone');
+  assert.deepEqual(problems, []);
+});
+
+test('it can be read, and moved by keys', { skip }, async () => {
+  await show({ src: 'mannequin.bendy', alt: 'A mannequin', paused: '' });
+  const image = async () => (await tab.accessibility.snapshot()).children?.find(({ role }) => role === 'image' || role === 'img');
+  assert.equal((await image()).name, 'A mannequin');
+  const angles = () => tab.evaluate(() => viewer.cameraAngles);
+  const before = await angles();
+  const press = async (...keys) => {
+    await tab.evaluate(() => viewer.shadowRoot.querySelector('canvas').focus());
+    for (const key of keys) await tab.keyboard.press(key);
+  };
+  await press('ArrowLeft');
+  assert.deepEqual(await angles(), before, 'without camera-controls nothing turns');
+  await tab.evaluate(() => (viewer.cameraControls = true));
+  await press('ArrowLeft', 'ArrowLeft', 'ArrowUp');
+  const turned = await angles();
+  assert.ok(turned.theta < before.theta && turned.phi < before.phi);
+  for (let k = 0; k < 40; ++k) await tab.keyboard.press('ArrowDown');
+  assert.ok((await angles()).phi < Math.PI, 'it does not turn over');
+  await tab.mouse.move(150, 150);
+  await tab.mouse.down();
+  await tab.mouse.move(90, 150, { steps: 3 });
+  await tab.mouse.up();
+  assert.ok((await angles()).theta > turned.theta);
+  assert.equal(await tab.evaluate(() => viewer.shadowRoot.querySelector('canvas').getAttribute('aria-keyshortcuts') !== null), true);
+  assert.deepEqual(problems, []);
+});
+
+test('attributes change what is shown', { skip }, async () => {
+  await show({ src: 'mannequin.bendy', paused: '' });
+  const loaded = tab.evaluate(() => new Promise((resolve) => viewer.addEventListener('load', () => resolve(viewer.clips.length), { once: true })));
+  await tab.evaluate(() => (viewer.src = 'tentacle.bendy'));
+  await loaded;
+  const joints = await tab.evaluate(() => viewer.character.joints.length);
+  assert.ok(joints < 65);
+  await tab.evaluate(() => (viewer.clip = 'no such clip'));
+  const [type, kind] = await tab.evaluate(() => [seen.at(-1)[0], seen.at(-1)[1].kind]);
+  assert.deepEqual([type, kind], ['error', 'not_found']);
+  await tab.evaluate(() => (viewer.clip = ''));
+  await frames(2);
+  assert.ok((await drawn()) > 100, 'at rest');
+  assert.deepEqual(problems, []);
+});
+
+test('what fails is an event with a BendyError', { skip }, async () => {
+  const none = await show({ src: 'none.bendy', poster: 'poster.png' });
+  assert.deepEqual([none.type, none.name, none.kind], ['error', 'BendyError', 'io']);
+  assert.equal(await tab.evaluate(() => viewer.shadowRoot.querySelector('img').hidden), false, 'the poster stays');
+  const broken = await show({ src: 'broken.bendy' });
+  assert.deepEqual([broken.type, broken.name, broken.kind], ['error', 'BendyError', 'malformed']);
+});
+
+test('it loads when it comes into view, and starts paused for readers who prefer reduced motion', { skip }, async () => {
+  await tab.emulateMediaFeatures([{ name: 'prefers-reduced-motion', value: 'reduce' }]);
+  await tab.evaluate(() => {
+    const space = document.createElement('div');
+    document.body.append(space);
+    space.style.height = '5000px';
+    const viewer = document.createElement('bendy-viewer');
+    Object.assign(viewer, { src: 'mannequin.bendy', poster: 'poster.png' });
+    document.body.append(viewer);
+    globalThis.viewer = viewer;
+    globalThis.loads = 0;
+    viewer.addEventListener('load', () => ++loads);
+  });
+  await frames(10);
+  assert.deepEqual(server.requests.filter((name) => name === 'mannequin.bendy'), []);
+  await tab.evaluate(() => viewer.scrollIntoView());
+  await tab.waitForFunction(() => loads === 1);
+  assert.equal(await tab.evaluate(() => viewer.paused), true);
+  await tab.evaluate(() => viewer.play());
+  assert.equal(await tab.evaluate(() => viewer.paused), false);
+  assert.deepEqual(problems, []);
+});
+
+test('more viewers that come and go than a browser has contexts, and one that moves', { skip }, async () => {
+  for (let k = 0; k < 20; ++k) {
+    await show({ src: 'tentacle.bendy' });
+    await tab.evaluate(() => viewer.remove());
+  }
+  await frames(2);
+  await show({ src: 'tentacle.bendy' });
+  await tab.evaluate(() => document.body.prepend(viewer));
+  await frames(3);
+  assert.notEqual(await tab.evaluate(() => viewer.character), null, 'a move keeps what is shown');
+  assert.equal((await show({ src: 'tentacle.bendy' })).type, 'load');
+  await tab.evaluate(() => { viewer.remove(); });
+  await frames(2);
+  await tab.evaluate(() => document.body.append(viewer));
+  await tab.waitForFunction(() => viewer.character !== null);
+  assert.ok((await drawn()) > 100);
+  assert.deepEqual(problems, []);
+});
