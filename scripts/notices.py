@@ -41,7 +41,7 @@ def used_by(build, target):
     inputs = ninja(build, "inputs", target).split("\n")
     objects = [path for path in inputs if path.endswith(".o")]
     headers = [line.strip() for line in ninja(build, "deps", *objects).split("\n") if line.startswith("    ")] if objects else []
-    paths = {str((Path(build) / path).resolve()) for path in headers + inputs if re.search(r"\.(a|so[.\d]*|h|hpp|inc?|ipp|inl|def)$|/[\w.+-]+$", path)}
+    paths = {str((Path(build) / path).resolve()) for path in headers + inputs}
     return {path for path in paths if not is_own(path)}
 
 

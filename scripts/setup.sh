@@ -138,5 +138,8 @@ install_missing
 # Downloads for the WebAssembly build, so that the checks download nothing.
 if wants test; then
     for system in web web-plain; do scripts/cross_dependencies.sh "$system"; done
-    [ -e bindings/web/node_modules/typescript ] || (cd bindings/web && npm ci --silent --no-audit --no-fund)
+    [ -e bindings/web/node_modules/playcanvas ] || (cd bindings/web && npm ci --silent --no-audit --no-fund)
+fi
+if wants all; then
+    [ -e bindings/web/test/compilers/node_modules/oldest ] || (cd bindings/web/test/compilers && npm ci --silent --no-audit --no-fund)
 fi

@@ -40,8 +40,8 @@ node embed.mjs "$tools/tools.wasm" src/generated/tools.ts 900000
 python3 ../convert_options.py src/generated/convert_options.ts
 [ -e test/compilers/node_modules/oldest ] || (cd test/compilers && npm ci --silent)
 npm run --silent build
-../../scripts/notices.py npm --check ../../build/cross/{web/build:web/bendy.wasm,web-plain/build:web/bendy.wasm,web-tools/build:web/tools/tools.js} dist/bundle/inputs.txt
-../../scripts/notices.py page --check ../../build/cross/{web/build:web/bendy.wasm,web-tools/build:web/tools/tools.js} dist/bundle/inputs.txt
+built=(../../build/cross/{web/build:web/bendy.wasm,web-plain/build:web/bendy.wasm,web-tools/build:web/tools/tools.js})
+for artefact in npm page; do ../../scripts/notices.py $artefact --check "${built[@]}" dist/bundle/inputs.txt; done
 npx --no-install tsc -p page
 "$BENDY_PROGRAM" convert ../../examples/mannequin.glb --rig page/example.rig.json --lod --quiet -o dist/example.bendy
 node page/build.mjs dist/example.bendy

@@ -115,7 +115,8 @@ while (performance.now() < end && process.exitCode === undefined) {
     if (tool === 'convert' && (await tools.validate(answer.bytes)).faults.length > 0) keep(tool, given, 'an invalid file');
   } catch (error) {
     ++count.refused;
-    if (!(error instanceof tools.BendyError) || error.kind === 'out_of_memory') keep(tool, given, `${error.name}: ${error.message}`);
+    const isOurs = error instanceof tools.BendyError && !['out_of_memory', 'stopped'].includes(error.kind);
+    if (!isOurs) keep(tool, given, `${error.name}: ${error.message}`);
   }
   if (performance.now() - began > longest) keep(tool, given, 'more than a minute');
 }
