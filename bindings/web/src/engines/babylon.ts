@@ -32,6 +32,7 @@ import { canSkin, embeddedImage, type EngineOptions, fourInfluences, loadCharact
 export type { ClipOptions, EngineOptions, Source } from './player.js';
 
 const mostInfluences = 8;
+let textureCount = 0; // Babylon.js shares textures of one address
 
 /** A mesh of Babylon.js, and the mesh of the model that it draws. */
 export interface BabylonPart {
@@ -103,10 +104,7 @@ export class BabylonCharacter extends Player {
   }
 
   override dispose(): void {
-    for (const { object, skeleton } of this.parts) {
-      skeleton?.dispose();
-      if (object.material instanceof MultiMaterial) object.material.dispose();
-    }
+    for (const { object, skeleton } of this.parts) for (const one of [skeleton, object.material]) one?.dispose();
     this.root.dispose();
     for (const material of this.#materials) material.dispose(false, true);
     super.dispose();
@@ -186,7 +184,7 @@ function makeTexture(use: TextureUse, model: Model, scene: Scene): Texture | nul
   const image = embeddedImage(source);
   if (image === null) return null;
   const options = { invertY: false, buffer: new Blob([image.bytes], { type: mediaType(image) }), deleteBuffer: true };
-  const made = new Texture(`data:bendy_${model.handle}_${use.texture}`, scene, options);
+  const made = new Texture(`data:bendy_${++textureCount}`, scene, options);
   const wraps = { repeat: Texture.WRAP_ADDRESSMODE, clamp_to_edge: Texture.CLAMP_ADDRESSMODE, mirrored_repeat: Texture.MIRROR_ADDRESSMODE };
   [made.wrapU, made.wrapV, made.coordinatesIndex] = [wraps[source.wrapS], wraps[source.wrapT], use.set];
   [[made.uOffset, made.vOffset], [made.uScale, made.vScale], made.wAng] = [use.offset, use.scale, -use.rotation];
