@@ -7,7 +7,7 @@ import { launch, openTab, serve, skip } from './browser.mjs';
 import { example, read } from './helpers.mjs';
 
 test('outlines', { skip, timeout: 600_000 }, async (context) => {
-  const entry = fileURLToPath(new URL('engines_browser.js', import.meta.url));
+  const entry = fileURLToPath(new URL('engines_browser.ts', import.meta.url));
   const { outputFiles } = await build({ entryPoints: [entry], bundle: true, format: 'esm', charset: 'utf8', target: 'es2022', write: false, logLevel: 'error' });
   const page = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><script type="module" src="main.js"></script><body></body>';
   const server = await serve({ 'index.html': page, 'main.js': outputFiles[0].contents, 'mannequin.bendy': read(example('mannequin')) });

@@ -1,4 +1,5 @@
-// Draws a character by Babylon.js and PlayCanvas, and compares its outline with triangles filled here. engines_browser.test.mjs bundles it.
+// Draws a character by Babylon.js and PlayCanvas, and compares its outline with triangles filled here. engines_browser.test.mjs bundles it:
+// a module of JavaScript, but node takes files of that name for tests.
 import { FreeCamera } from '@babylonjs/core/Cameras/freeCamera.js';
 import { Engine } from '@babylonjs/core/Engines/engine.js';
 import { Color3, Color4 } from '@babylonjs/core/Maths/math.color.js';
