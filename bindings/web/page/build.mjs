@@ -4,6 +4,7 @@ import { execFileSync } from 'node:child_process';
 import { build } from 'esbuild';
 
 const here = (name) => new URL(name, import.meta.url);
+const text = (name) => readFile(here(name), 'utf8');
 
 /** A module with all that it imports, as the text of a classic script. */
 async function bundle(name) {
@@ -23,15 +24,16 @@ async function bundle(name) {
   return outputFiles[0].text.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
 }
 
-const example = await readFile(process.argv[2], 'base64');
-const worker = JSON.stringify(await bundle('worker.ts')).replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
 const parts = {
-  '@css@': await readFile(here('page.css'), 'utf8'),
-  '@data@': `const bendyExample = "${example}"; const bendyWorker = ${worker};`,
-  '@js@': await bundle('main.ts'),
+  '@css@': await text('page.css'),
+  '@icons@': await text('icons.svg'),
+  '@poster@': `data:image/webp;base64,${await readFile(here('poster.webp'), 'base64')}`,
+  '@example@': await readFile(process.argv[2], 'base64'),
+  '@main@': await bundle('main.ts'),
+  '@worker@': await bundle('worker.ts'),
 };
-let page = await readFile(here('index.html'), 'utf8');
-for (const [mark, text] of Object.entries(parts)) page = page.replace(mark, () => text);
+let page = await text('index.html');
+for (const [mark, part] of Object.entries(parts)) page = page.replace(mark, () => part);
 // Whoever copies the page copies the licences of what is in it.
 const notices = execFileSync('python3', ['-B', here('../../../scripts/notices.py').pathname, 'page'], { encoding: 'utf8' });
 const licences = `${await readFile(here('../../../LICENSE'), 'utf8')}\n${notices}`;

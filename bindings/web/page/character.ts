@@ -3,6 +3,23 @@ import * as THREE from 'three';
 import { type Chain, type Clip, type Constraint, CrossFade, LevelOfDetail, Model, Playback, Pose } from '../src/index.js';
 import { BendyAnimator, type BendyCharacter, BendyLoader, setLevelOfDetail } from '../src/three/index.js';
 import { drawRange } from './ranges.js';
+import { counted } from './units.js';
+
+const letGoSeconds = 0.3;
+const turnSeconds = 0.12; // of the head, towards the pointer
+
+/** A chain's target, model space, and how much the chain follows it. */
+interface Target {
+  position: THREE.Vector3;
+  influence: number;
+  isLeaving: boolean;
+}
+
+/** The order in which clips are preferred as the first: those that show a character at ease, and poses without motion last. */
+function rankOfClip({ name, seconds }: Clip): number {
+  if (seconds < 0.1 || /t[-_ ]?pose|a[-_ ]pose|\bbind\b|\brest\b|\breset\b/i.test(name)) return 3;
+  return /idle|breath/i.test(name) ? 0 : /walk/i.test(name) ? 1 : 2;
+}
 
 /** The rotations that the constraint of a joint allows. */
 export interface Range {
@@ -11,13 +28,14 @@ export interface Range {
 }
 
 export class Character {
-  /** The targets of chains in model space, by chain number. */
-  readonly targets = new Map<number, THREE.Vector3>();
   /** Weights of morph targets that replace those of the clip, by their numbers. */
-  readonly weights = new Map<number, number>();
+  weights = new Map<number, number>();
   /** The results of the chains that reach. */
   readonly results = new Map<number, string>();
   obeysConstraints = true;
+  #targets = new Map<number, Target>();
+  #leader: Character | undefined;
+  #gaze: Target | undefined; // what the look chain points at
   clip = 0;
   readonly clips: readonly Clip[];
   readonly chains: readonly Chain[];
@@ -86,12 +104,36 @@ export class Character {
   }
   get facts(): string {
     const { joints, clips, vertexCount } = this.#model;
-    const counted = (count: number, one: string, many: string) => `${count.toLocaleString('en')} ${count === 1 ? one : many}`;
     return [counted(vertexCount, 'vertex', 'vertices'), counted(joints.length, 'joint', 'joints'), counted(clips.length, 'clip', 'clips')].join(', ');
   }
-  /** The initial clip: a walk if there is one, otherwise the first. */
+  /** The initial clip: the first of those that show the character at its best. */
   get firstClip(): number {
-    return Math.max(0, this.clips.findIndex(({ name }) => /walk/i.test(name)));
+    const ranks = this.clips.map(rankOfClip);
+    return Math.max(0, ranks.indexOf(Math.min(...ranks)));
+  }
+
+  /** The targets of the chains that reach, model space, by chain number. */
+  get targets(): ReadonlyMap<number, THREE.Vector3> {
+    return new Map([...this.#targets].filter(([, { isLeaving }]) => !isLeaving).map(([chain, { position }]) => [chain, position]));
+  }
+
+  /** Makes a chain reach for a point in model space. */
+  reachFor(chain: number, position: THREE.Vector3): void {
+    this.#targets.set(chain, { position, influence: 1, isLeaving: false });
+  }
+
+  /** Does from now on what another character of the same joints does: its clip, targets and weights. */
+  follow(leader: Character): void {
+    this.#leader = leader;
+    this.#targets = leader.#targets;
+    this.weights = leader.weights;
+    this.clip = leader.clip;
+  }
+
+  /** Lets a chain return to its clip. */
+  letGo(chain: number): void {
+    const target = this.#targets.get(chain);
+    if (target) target.isLeaving = true;
   }
 
   play(clip: number, fade: number): void {
@@ -122,9 +164,18 @@ export class Character {
     setLevelOfDetail(this.result, share);
   }
 
-  /** Advances the clips, reaches, and moves the three.js objects. */
-  update(seconds: number, pointer: THREE.Vector3 | undefined): void {
-    if (this.#playback) {
+  /**
+   * Advances the clips, reaches, and moves the three.js objects.
+   *
+   * @param seconds - for the clips
+   * @param passed - seconds since the last call
+   * @param pointer - what the look chain points at
+   */
+  update(seconds: number, passed: number, pointer: THREE.Vector3 | undefined): void {
+    if (this.#leader) {
+      this.obeysConstraints = this.#leader.obeysConstraints;
+      if (this.clips.length !== 0) this.#pose.sample(this.#leader.clip, this.#leader.seconds);
+    } else if (this.#playback) {
       this.#crossFade.advance(seconds);
       this.#crossFade.sample(this.#pose);
     } else {
@@ -133,15 +184,34 @@ export class Character {
     for (const [target, weight] of this.weights) this.#pose.setMorphWeights([weight], target);
     this.results.clear();
     for (const chain of this.chains) {
-      const target = this.targets.get(chain.number) ?? (chain === this.lookChain ? pointer : undefined);
-      if (!target) continue;
-      const { status, distance, angle } = this.#pose.reach(chain.number, target.toArray(), { obeyConstraints: this.obeysConstraints });
-      const words = { reached: 'reached', aimed: 'aimed', out_of_reach: 'too far', not_reached: 'as near as it can' }[status];
-      const left = chain.solver === 'aim' ? `${((180 / Math.PI) * angle).toFixed(1)}°` : `${(1000 * distance).toFixed(0)} mm`;
-      this.results.set(chain.number, status === 'reached' || status === 'aimed' ? words : `${words}, ${left}`);
+      const target = chain === this.lookChain ? this.#look(pointer, passed) : this.#targets.get(chain.number);
+      if (target) this.#reach(chain, target, passed);
     }
     this.#animator.apply();
     this.#matrices = this.#pose.modelMatrices().slice();
+  }
+
+  /** What the look chain follows: the pointer, and after it has gone the place where it was, less and less. */
+  #look(pointer: THREE.Vector3 | undefined, passed: number): Target | undefined {
+    const share = 1 - Math.exp(-passed / turnSeconds);
+    if (pointer) this.#gaze ??= { position: pointer.clone(), influence: 0, isLeaving: false };
+    if (!this.#gaze) return undefined;
+    if (pointer) this.#gaze.position.lerp(pointer, share);
+    this.#gaze.influence += share * ((pointer ? 1 : 0) - this.#gaze.influence);
+    if (!pointer && this.#gaze.influence < 0.01) this.#gaze = undefined;
+    return this.#gaze;
+  }
+
+  #reach(chain: Chain, target: Target, passed: number): void {
+    if (target.isLeaving && !this.#leader) target.influence -= passed / letGoSeconds;
+    if (target.influence <= 0) return void this.#targets.delete(chain.number);
+    const { influence, position } = target;
+    const options = { obeyConstraints: this.obeysConstraints, ...(influence < 0.999 ? { influence } : {}) };
+    const { status, distance, angle } = this.#pose.reach(chain.number, position.toArray(), options);
+    if (target.isLeaving) return;
+    const words = { reached: 'reached', aimed: 'aimed', out_of_reach: 'too far', not_reached: 'as near as it can' }[status];
+    const left = chain.solver === 'aim' ? `${((180 / Math.PI) * angle).toFixed(1)}°` : `${(1000 * distance).toFixed(0)} mm`;
+    this.results.set(chain.number, status === 'reached' || status === 'aimed' ? words : `${words}, ${left}`);
   }
 
   /** The position of a chain's tip in model space. */
@@ -170,6 +240,35 @@ export class Character {
     const place = new THREE.Vector3().setFromMatrixPosition(this.#matrix(constraint.joint));
     const turn = new THREE.Quaternion().setFromRotationMatrix(new THREE.Matrix4().extractRotation(parent)).multiply(rest);
     object.matrix.compose(place, turn, new THREE.Vector3(radius, radius, radius));
+  }
+
+  /** The vertices in the current pose, or at rest: x y z in model space, a copy. */
+  vertices(atRest = false): Float32Array {
+    if (atRest) this.#pose.reset();
+    return this.#pose.skin().positions.slice();
+  }
+
+  /** Draws the character with a material of its own and a colour for each vertex, which the result is for. */
+  paint(): Float32Array {
+    const colours = new Float32Array(3 * this.#model.vertexCount);
+    for (const { object, mesh } of this.result.parts) {
+      const { firstVertex, vertexCount, hasNormals } = this.#model.meshes[mesh]!;
+      const own = colours.subarray(3 * firstVertex, 3 * (firstVertex + vertexCount));
+      object.geometry.setAttribute('color', new THREE.BufferAttribute(own, 3));
+      for (const material of [object.material].flat()) material.dispose();
+      object.material = new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 1, flatShading: !hasNormals });
+    }
+    return colours;
+  }
+
+  /** The colours of `paint` have changed. */
+  repaint(): void {
+    for (const { object } of this.result.parts) object.geometry.getAttribute('color')!.needsUpdate = true;
+  }
+
+  /** Whether the clip still fades in over the one before. */
+  get isFading(): boolean {
+    return this.#playback !== undefined && this.#crossFade.playing.length > 1;
   }
 
   get hasMesh(): boolean {

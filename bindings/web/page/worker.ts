@@ -5,6 +5,7 @@ import * as tools from '../src/tools/index.js';
 /** A request of the page. */
 export type Request =
   | { kind: 'read'; files: Record<string, Uint8Array>; main: string; autoRig: boolean }
+  | { kind: 'check'; bytes: Uint8Array }
   | { kind: 'compact'; bytes: Uint8Array; bound: string }
   | { kind: 'glb'; bytes: Uint8Array }
   | { kind: 'inspect'; bytes: Uint8Array; name: string };
@@ -25,7 +26,8 @@ export interface Warning {
 
 export interface Answers {
   read: { bytes: Uint8Array; warnings: Warning[]; faults: Fault[]; sourceSize: number };
-  compact: { bytes: Uint8Array; measured: number };
+  check: { faults: Fault[] };
+  compact: { bytes: Uint8Array; bound: number; measured: number };
   glb: { bytes: Uint8Array; warnings: Warning[] };
   inspect: { html: string };
 }
@@ -62,9 +64,12 @@ async function answer(request: Request, progress: (share: number) => void): Prom
   switch (request.kind) {
     case 'read':
       return read(request, progress);
+    case 'check':
+      return { faults: (await tools.validate(request.bytes)).faults };
     case 'compact': {
       const { bytes, report } = await tools.convert(request.bytes, { compact: request.bound, progress });
-      return { bytes, measured: (report['compact'] as { measuredError: number }).measuredError };
+      const { maxError, measuredError } = report['compact'] as { maxError: number; measuredError: number };
+      return { bytes, bound: maxError, measured: measuredError };
     }
     case 'glb': {
       const { files, warnings } = await tools.exportModel(request.bytes, 'glb');
