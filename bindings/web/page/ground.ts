@@ -2,6 +2,7 @@
 import * as THREE from 'three';
 
 const texels = 256;
+const spread = 2.2; // texels from one sample of the blur to the next
 /** The layer of what throws a shadow. */
 export const shadowLayer = 1;
 
@@ -33,7 +34,8 @@ uniform float strength;
 varying vec2 at;
 void main() {
   float edge = 1.0 - smoothstep(0.36, 0.5, length(at - 0.5));
-  gl_FragColor = vec4(vec3(0.0), strength * edge * (1.0 - texture2D(map, at).r));
+  float near = 1.0 - texture2D(map, at).r; // to the ground: feet throw darker shadows than hands that hang low
+  gl_FragColor = vec4(vec3(0.0), strength * edge * near * near);
 }`;
 
 export class ContactShadow {
@@ -102,7 +104,7 @@ export class ContactShadow {
   #smear(renderer: THREE.WebGLRenderer, from: THREE.WebGLRenderTarget, to: THREE.WebGLRenderTarget, x: number, y: number): void {
     const { map, step } = this.#blur.uniforms;
     map!.value = from.texture;
-    (step!.value as THREE.Vector2).set(1.6 * x, 1.6 * y);
+    (step!.value as THREE.Vector2).set(spread * x, spread * y);
     renderer.setRenderTarget(to);
     renderer.render(this.#screen, this.#camera);
   }

@@ -69,7 +69,7 @@ export class Handles {
       const at = this.#positionOf(chain).project(camera);
       handle.style.transform = `translate(${(((at.x + 1) / 2) * width).toFixed(1)}px, ${(((1 - at.y) / 2) * height).toFixed(1)}px)`;
       handle.classList.toggle('holding', this.#character!.targets.has(chain));
-      handle.classList.toggle('right', ((1 - at.x) / 2) * width < invitationWidth);
+      handle.classList.toggle('narrow', ((1 - at.x) / 2) * width < invitationWidth);
       handle.hidden = Math.abs(at.x) > 1 || Math.abs(at.y) > 1;
     }
   }

@@ -5,7 +5,7 @@ import { element } from './elements.js';
 function posterPainted(): Promise<void> {
   return new Promise((resolve) => {
     new PerformanceObserver(() => resolve()).observe({ type: 'paint', buffered: true });
-    setTimeout(resolve, 500); // not every browser reports it, and none paints a hidden page
+    setTimeout(resolve, 1500); // not every browser reports it, and none paints a hidden page
   });
 }
 

@@ -181,7 +181,7 @@ export class Stage {
     const { background } = this.#scene;
     if (background instanceof THREE.Texture) background.dispose();
     this.#scene.background = makeBackdrop(this.#backdrop, this.#colour);
-    this.#shadow.strength = this.#backdrop === 'Soft' && dark.matches ? 0.75 : 0.5;
+    this.#shadow.strength = this.#backdrop === 'Soft' && dark.matches ? 0.9 : 0.7;
   }
 
   #place(event: PointerEvent): void {
