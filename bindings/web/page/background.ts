@@ -10,6 +10,7 @@ interface Waiting {
 /** A worker that starts with the first request, and is terminated when its answers are no longer wanted. */
 export class Background {
   #worker: Worker | undefined;
+  #address: string | undefined; // of its text
   #next = 0;
   #waiting = new Map<number, Waiting>();
 
@@ -38,8 +39,8 @@ export class Background {
   }
 
   #start(): Worker {
-    const text = document.getElementById('worker')!.textContent;
-    const worker = new Worker(URL.createObjectURL(new Blob([text], { type: 'text/javascript' })));
+    this.#address ??= URL.createObjectURL(new Blob([document.getElementById('worker')!.textContent], { type: 'text/javascript' }));
+    const worker = new Worker(this.#address);
     worker.onmessage = ({ data }: MessageEvent<Reply>) => {
       const waiting = this.#waiting.get(data.id);
       if (!waiting) return;

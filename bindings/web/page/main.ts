@@ -4,7 +4,8 @@ import { element } from './elements.js';
 /** Resolves when the poster has been painted: making a picture by WebGL keeps the browser from painting for a while. */
 function posterPainted(): Promise<void> {
   return new Promise((resolve) => {
-    new PerformanceObserver(() => resolve()).observe({ type: 'paint', buffered: true });
+    const observer = new PerformanceObserver((list) => list.getEntriesByName('first-contentful-paint').length !== 0 && resolve());
+    observer.observe({ type: 'paint', buffered: true });
     setTimeout(resolve, 1500); // not every browser reports it, and none paints a hidden page
   });
 }
