@@ -23,6 +23,9 @@ export function chainLabel({ name, number }: { name: string; number: number }): 
   return words || `chain ${number}`;
 }
 
+const nameOf = (chain: { name: string; number: number }): string =>
+  `Move the ${chainLabel(chain)}: arrow keys, page up and page down; Escape lets go`;
+
 export class Handles {
   /** Called when a chain is taken, and when it is let go or put down: undefined. */
   onHold: (chain: number | undefined) => void = () => {};
@@ -42,7 +45,7 @@ export class Handles {
     this.#buttons.clear();
     for (const chain of character?.limbs ?? []) {
       const handle = make('button', { type: 'button', className: 'handle', title: `Drag the ${chainLabel(chain)}` });
-      handle.setAttribute('aria-label', `Move the ${chainLabel(chain)}: arrow keys, page up and page down; Escape lets go`);
+      handle.setAttribute('aria-label', nameOf(chain));
       handle.addEventListener('pointerdown', (event) => this.#press(event, chain.number, handle));
       handle.addEventListener('pointermove', (event) => this.#move(event));
       for (const end of ['pointerup', 'pointercancel']) handle.addEventListener(end, () => this.#putDown());
@@ -57,8 +60,10 @@ export class Handles {
   /** Marks the handle to try first, by a text beside it. */
   invite(chain: number, text: string): void {
     const handle = this.#buttons.get(chain);
-    handle?.classList.add('inviting');
-    handle?.append(make('span', { className: 'invitation' }, text));
+    if (!handle) return;
+    handle.classList.add('inviting');
+    handle.setAttribute('aria-label', `${text}. ${handle.getAttribute('aria-label')}`); // a name that has the text
+    handle.append(make('span', { className: 'invitation' }, text));
   }
 
   /** Puts the handles where the tips and targets are. */
@@ -129,7 +134,9 @@ export class Handles {
 
   /** Somebody has taken a handle: no invitation is needed. */
   #welcome(): void {
-    for (const handle of this.#buttons.values()) {
+    for (const { number, name } of this.#character!.limbs) {
+      const handle = this.#buttons.get(number)!;
+      handle.setAttribute('aria-label', nameOf({ number, name }));
       handle.classList.remove('inviting');
       handle.replaceChildren();
     }

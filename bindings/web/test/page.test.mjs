@@ -133,6 +133,8 @@ test('a poster is shown until the first picture, which is like it; the tools are
   assert.ok(share > 0.75, `the outlines of poster and character share ${share}: run page/poster.mjs`);
 });
 
+test('axe finds nothing on the first view', { skip }, async () => checkByAxe());
+
 test('the example idles, and looks at the pointer', { skip }, async () => {
   assert.match(await text('#name'), /mannequin\.bendy · [\d,]+ vertices, 65 joints, 2 clips/);
   assert.match(await text('#clips [aria-current=true]'), /^Idle/);
@@ -291,8 +293,6 @@ test('with reduced motion, nothing moves until it is asked to', { skip }, async 
   assert.equal(await still.$eval('.handle.inviting', (element) => getComputedStyle(element, '::before').animationName), 'none');
   await still.close();
 });
-
-test('axe finds nothing on the first view', { skip }, async () => checkByAxe());
 
 test('a source is converted, and what is saved has the bytes of the program', { skip }, async () => {
   const source = join(root, 'examples/tentacle.glb');
