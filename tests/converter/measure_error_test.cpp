@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -183,6 +184,31 @@ TEST(MeasureError, TheBoundsPassOverNoWorstVertex) {
         EXPECT_EQ(error.mesh, expected.mesh) << seed;
         EXPECT_EQ(error.clip, expected.clip) << seed;
     }
+}
+
+TEST(MeasureError, OfClipsInsideTheLimitTheWorstIsExact) {
+    Scene exact = still_scene();
+    Scene decoded = exact;
+    constexpr std::array kErrors{0.25f, 0.5f, 0.125f, 2.0f, 0.5f};
+    for (const float error : kErrors) {
+        for (Scene* scene : {&exact, &decoded}) {
+            const float x = scene == &exact ? 0.0f : error;
+            scene->clips.emplace_back().tracks = {
+                {TrackPath::translation, Interpolation::linear, 0, 3, {0, 1}, {x, 0, 0, x, 0, 0}}};
+        }
+    }
+    const std::vector<std::uint32_t> clips{0, 1, 2, 3, 4};
+    const std::vector<MeasuredError> found = measure_clips(exact, decoded, clips, {.limit = 1.0});
+    ASSERT_EQ(found.size(), 6u);
+    EXPECT_EQ(found[0].metres, 0.25);
+    EXPECT_EQ(found[1].metres, 0.5);
+    EXPECT_EQ(found[2].metres, 0.0);  // less than a clip before it: not found
+    EXPECT_EQ(found[3].metres, 2.0);
+    EXPECT_EQ(found[4].metres, 0.5);  // as much: the first of equals does not depend on the order of measuring
+    EXPECT_EQ(found[5].metres, 0.0);
+    const std::vector<MeasuredError> others = measure_clips(exact, decoded, clips, {.known = 0.75, .limit = 1.0});
+    EXPECT_EQ(others[1].metres, 0.0);
+    EXPECT_EQ(others[3].metres, 2.0);
 }
 
 TEST(MeasureError, ProgressEndsAtOne) {

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <numeric>
 #include <utility>
 
@@ -46,15 +47,16 @@ double stretch_of(const glm::dmat3& m) {
     return std::sqrt(largest);
 }
 
-/// The Frobenius norm: also an upper bound.
-double length_of_all(const glm::dmat3& m) {
-    return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+/// The lengths of the matrix's columns.
+glm::dvec3 lengths_of(const glm::dmat3& m) {
+    return {glm::length(m[0]), glm::length(m[1]), glm::length(m[2])};
 }
 
 /// A mesh in both scenes. With bone matrices P and Q, positions p and p', weights w and w' of the exact and the decoded
-/// mesh, the error of a vertex is
-///     sum w P p - sum w' Q p' = sum w (P - Q) p + sum (w - w') (Q p - c) + sum (w - w') c + sum w' Q (p - p')
-/// for any c; each of the four terms is bounded by constants of the vertex and, once per pose, of the bones.
+/// mesh, and Q_0 of any one bone, the error of a vertex is
+///     sum w P p - sum w' Q p' = sum w (P - Q) p + sum (w - w') (Q - Q_0) p + sum (w - w') Q_0 p + sum w' Q (p - p')
+/// Each of the four terms is bounded by constants of the vertex and of the bones. Vertices are in a tree of boxes, so
+/// that a bound passes over many of them.
 class MeshPair {
 public:
     MeshPair(const Mesh& exact, const Mesh& decoded, const std::vector<std::uint32_t>* map)
@@ -67,9 +69,10 @@ public:
             const std::uint32_t there = place_in_decoded(vertex);
             if (there != kNone && touched_there[there]) touched_[vertex] = true;
         }
-        find_groups();
         has_bounds_ = exact_.joints() == decoded_.joints();
-        if (has_bounds_) prepare_bounds();
+        differences_.resize(exact_.size());
+        if (has_bounds_) find_differences();
+        find_nodes();
     }
 
     /// Updates `worst` if a vertex of this pose is worse; returns whether it did.
@@ -80,10 +83,7 @@ public:
         if (!moved_here && !moved_there && is_measured_) return false;
         is_measured_ = true;
         const bool is_displaced = exact_.is_displaced() || decoded_.is_displaced();
-        if (has_bounds_) {
-            bound_bones();
-            if (!is_displaced && bound(worst_case_, largest_difference_) <= worst.metres) return false;
-        }
+        if (has_bounds_) bound_bones();
         bool has_risen = false;
         const auto look_at = [&](std::uint32_t vertex) {
             const double error = glm::distance(exact_.place(vertex), decoded_.place(place_in_decoded(vertex)));
@@ -93,18 +93,20 @@ public:
             worst.vertex = vertex;
             has_risen = true;
         };
-        for (const Group& group : groups_) {
-            const bool has_bounds = has_bounds_ && !(is_displaced && group.is_touched);
-            double bone_difference = 0.0;
+        for (std::size_t number = 0; number < nodes_.size();) {
+            const Node& node = nodes_[number++];
+            const bool has_bounds = has_bounds_ && !(is_displaced && node.is_touched);
+            PoseBound bones;
             if (has_bounds) {
-                for (const std::uint32_t entry : group.entries) {
-                    const BoneDifference& d = bone_differences_[entry];
-                    raise(bone_difference, glm::length(d.matrix(group.middle)) + d.length * group.radius);
+                bones = bound_of(node);
+                if (bound(node.worst_case, bones) <= worst.metres) {
+                    number = node.end;
+                    continue;
                 }
-                if (bound(group.worst_case, bone_difference) <= worst.metres) continue;
             }
-            for (const std::uint32_t vertex : group.vertices) {
-                if (!has_bounds || !(bound(differences_[vertex], bone_difference) <= worst.metres)) look_at(vertex);
+            for (std::uint32_t at = node.first; at < node.first + node.count; ++at) {
+                const std::uint32_t vertex = vertices_[at];
+                if (!has_bounds || !(bound(differences_[vertex], bones) <= worst.metres)) look_at(vertex);
             }
         }
         return has_risen;
@@ -147,19 +149,30 @@ private:
     }
     static void raise(double& most, double value) { converter::raise(most, value); }
 
-    /// A few nearby vertices that the same bones move in the exact scene.
-    struct Group {
-        std::vector<std::uint32_t> entries;   // palette entries, ascending
-        std::vector<std::uint32_t> vertices;  // those that are compared
-        glm::dvec3 middle{0.0};               // in mesh space
-        double radius = 0.0;
+    /// Vertices that the same bones move, in a box; its parts follow it.
+    struct Node {
+        std::uint32_t entries = 0;           // number of the list of palette entries
+        std::uint32_t first = 0, count = 0;  // of a box without parts: its vertices
+        std::uint32_t end = 0;               // number of the first node that is no part of it
+        glm::dvec3 middle{0.0};              // in mesh space
+        glm::dvec3 half{0.0};                // from the middle to a corner
         Difference worst_case;
         bool is_touched = false;  // some target displaces them
     };
-    /// A bone's matrix in this pose: exact minus decoded.
-    struct BoneDifference {
-        Affine matrix;
-        double length = 0.0;  // Frobenius norm of the linear part
+    /// A bone in this pose.
+    struct Bone {
+        Affine difference;      // exact minus decoded
+        glm::dvec3 lengths;     // of the difference's columns
+        double stretch = 0.0;   // of the decoded matrix, at most
+        double distance = 0.0;  // from the origin to what it moves, at most
+    };
+    /// What the bones of a node do to its vertices in this pose, at most.
+    struct PoseBound {
+        double difference =
+            0.0;                // metres between the places of a point, by one bone of the exact and the decoded scene
+        double stretch = 0.0;   // of a decoded bone
+        double spread = 0.0;    // metres between the places of a point, by two decoded bones
+        double distance = 0.0;  // metres from the origin
     };
 
     [[nodiscard]] std::uint32_t place_in_decoded(std::size_t vertex) const {
@@ -168,38 +181,60 @@ private:
         return vertex < decoded_.size() ? static_cast<std::uint32_t>(vertex) : kNone;
     }
 
-    void find_groups() {
+    void find_nodes() {
         std::map<std::pair<bool, std::vector<std::uint32_t>>, std::vector<std::uint32_t>> groups;
+        auto last = groups.end();  // neighbours often are in the same group
+        std::pair<bool, std::vector<std::uint32_t>> key;
         for (std::uint32_t vertex = 0; vertex < exact_.size(); ++vertex) {
-            if (place_in_decoded(vertex) == kNone) continue;
-            std::vector<std::uint32_t> entries;
-            for (const Influence& influence : exact_.influences(vertex)) entries.push_back(influence.entry);
-            std::sort(entries.begin(), entries.end());
-            groups[{touched_[vertex], std::move(entries)}].push_back(vertex);
+            const std::uint32_t there = place_in_decoded(vertex);
+            if (there == kNone) continue;
+            key.first = touched_[vertex];
+            key.second.clear();
+            for (const Influence& influence : exact_.influences(vertex)) key.second.push_back(influence.entry);
+            for (const Influence& influence : decoded_.influences(there)) key.second.push_back(influence.entry);
+            std::sort(key.second.begin(), key.second.end());
+            key.second.erase(std::unique(key.second.begin(), key.second.end()), key.second.end());
+            if (last == groups.end() || last->first != key) last = groups.try_emplace(key).first;
+            last->second.push_back(vertex);
         }
-        for (auto& [key, vertices] : groups) add_groups(key.second, vertices, key.first);
+        for (auto& [bones, vertices] : groups) {
+            entries_.push_back(bones.second);
+            add_nodes(vertices, bones.first);
+        }
     }
 
-    /// Splits the vertices across their longest side, until each group is small.
-    void add_groups(const std::vector<std::uint32_t>& entries, std::span<std::uint32_t> all, bool is_touched) {
-        constexpr std::size_t kMost = 16;
-        std::vector<std::span<std::uint32_t>> open{all};
+    /// Splits the vertices across their longest side, until each box has few.
+    void add_nodes(std::span<std::uint32_t> all, bool is_touched) {
+        constexpr std::size_t kMost = 8;
+        struct Open {
+            std::span<std::uint32_t> vertices;
+            std::size_t closes = 0;  // the node that ends here; vertices are empty
+        };
+        std::vector<Open> open{{all, 0}};
         while (!open.empty()) {
-            const std::span<std::uint32_t> vertices = open.back();
+            const auto [vertices, closes] = open.back();
             open.pop_back();
+            if (vertices.empty()) {
+                nodes_[closes].end = static_cast<std::uint32_t>(nodes_.size());
+                continue;
+            }
             Box<glm::dvec3> box;
             for (const std::uint32_t vertex : vertices) box.add(exact_.base(vertex));
             const glm::dvec3 size = box.high - box.low;
             const int larger = size.y > size.x ? 1 : 0;
             const int axis = size.z > size[larger] ? 2 : larger;
+            Node& node = nodes_.emplace_back();
+            node.entries = static_cast<std::uint32_t>(entries_.size() - 1);
+            node.middle = 0.5 * (box.low + box.high);
+            node.half = 0.5 * size;
+            node.is_touched = is_touched;
+            node.end = static_cast<std::uint32_t>(nodes_.size());
+            for (const std::uint32_t vertex : vertices) raise(node.worst_case, differences_[vertex]);
             if (vertices.size() <= kMost || !(size[axis] > 0.0)) {
                 std::sort(vertices.begin(), vertices.end());  // nth_element's order differs between libraries
-                groups_.push_back({entries,
-                                   {vertices.begin(), vertices.end()},
-                                   0.5 * (box.low + box.high),
-                                   0.5 * glm::length(size),
-                                   {},
-                                   is_touched});
+                node.first = static_cast<std::uint32_t>(vertices_.size());
+                node.count = static_cast<std::uint32_t>(vertices.size());
+                vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
                 continue;
             }
             const std::size_t half = vertices.size() / 2;
@@ -208,14 +243,15 @@ private:
                                  return std::pair(or_infinite(exact_.base(a)[axis]), a) <
                                         std::pair(or_infinite(exact_.base(b)[axis]), b);
                              });
-            open.push_back(vertices.subspan(half));
-            open.push_back(vertices.first(half));
+            open.push_back({{}, nodes_.size() - 1});
+            open.push_back({vertices.subspan(half), 0});
+            open.push_back({vertices.first(half), 0});
         }
     }
 
-    void prepare_bounds() {
+    void find_differences() {
         boxes_.resize(exact_.joints().size());
-        differences_.resize(exact_.size());
+        bones_.resize(boxes_.size());
         std::vector<double> change(boxes_.size(), 0.0);
         for (std::size_t vertex = 0; vertex < exact_.size(); ++vertex) {
             const std::uint32_t there = place_in_decoded(vertex);
@@ -239,49 +275,51 @@ private:
                 }
             }
             d.weight_sum = std::abs(d.exact_total - d.decoded_total);
-            raise(worst_case_, d);
         }
-        for (Group& group : groups_) {
-            for (const std::uint32_t vertex : group.vertices) raise(group.worst_case, differences_[vertex]);
-        }
-        bone_differences_.resize(boxes_.size());
     }
 
     /// Computes the bones' part of the bounds for this pose.
     void bound_bones() {
-        stretch_ = 0.0;
-        largest_difference_ = 0.0;
-        spread_ = 0.0;
-        centre_ = glm::dvec3(0.0);
-        centre_distance_ = 0.0;
-        const auto first =
-            std::find_if(boxes_.begin(), boxes_.end(), [](const Box<glm::dvec3>& box) { return !box.is_empty(); });
-        if (first == boxes_.end()) return;
-        centre_ =
-            decoded_.matrices()[static_cast<std::size_t>(first - boxes_.begin())]((first->low + first->high) * 0.5);
-        centre_distance_ = glm::length(centre_);
-        for (std::size_t bone = 0; bone < boxes_.size(); ++bone) {
-            if (boxes_[bone].is_empty()) continue;
-            const Affine& p = exact_.matrices()[bone];
-            const Affine& q = decoded_.matrices()[bone];
-            const double stretched = stretch_of(q.linear);
-            raise(stretch_, stretched);
-            // The error of a point in a box is at most that of its middle plus the matrix's effect on the way to a
-            // corner.
-            const glm::dvec3 middle = 0.5 * (boxes_[bone].low + boxes_[bone].high);
-            const double radius = 0.5 * glm::distance(boxes_[bone].low, boxes_[bone].high);
-            raise(spread_, glm::distance(q(middle), centre_) + stretched * radius);
-            BoneDifference& d = bone_differences_[bone];
-            d.matrix = {p.linear - q.linear, p.origin - q.origin};
-            d.length = length_of_all(d.matrix.linear);
-            raise(largest_difference_, glm::length(d.matrix(middle)) + d.length * radius);
+        for (std::size_t number = 0; number < boxes_.size(); ++number) {
+            const Box<glm::dvec3>& box = boxes_[number];
+            if (box.is_empty()) continue;
+            const Affine& p = exact_.matrices()[number];
+            const Affine& q = decoded_.matrices()[number];
+            Bone& bone = bones_[number];
+            bone.difference = {p.linear - q.linear, p.origin - q.origin};
+            bone.lengths = lengths_of(bone.difference.linear);
+            bone.stretch = stretch_of(q.linear);
+            bone.distance =
+                glm::length(q(0.5 * (box.low + box.high))) + bone.stretch * 0.5 * glm::distance(box.low, box.high);
         }
     }
 
-    [[nodiscard]] double bound(const Difference& d, double bone_difference) const {
+    /// A point of the box is its middle plus at most `half` along each axis, which a matrix makes as long as its
+    /// columns.
+    [[nodiscard]] PoseBound bound_of(const Node& node) const {
+        PoseBound most;
+        const std::vector<std::uint32_t>& entries = entries_[node.entries];
+        for (const std::uint32_t entry : entries) {
+            const Bone& bone = bones_[entry];
+            raise(most.difference, glm::length(bone.difference(node.middle)) + glm::dot(bone.lengths, node.half));
+            raise(most.stretch, bone.stretch);
+            raise(most.distance, bone.distance);
+        }
+        if (!(node.worst_case.weights > 0.0) || entries.empty()) return most;
+        const Affine& first = decoded_.matrices()[entries[0]];
+        const glm::dvec3 place = first(node.middle);
+        for (std::size_t k = 1; k < entries.size(); ++k) {
+            const Affine& other = decoded_.matrices()[entries[k]];
+            raise(most.spread, glm::distance(other(node.middle), place) +
+                                   glm::dot(lengths_of(other.linear - first.linear), node.half));
+        }
+        return most;
+    }
+
+    [[nodiscard]] static double bound(const Difference& d, const PoseBound& bones) {
         constexpr double kRounding = 1.0 + 1e-9;
-        return kRounding * (d.exact_total * bone_difference + d.decoded_total * stretch_ * d.place +
-                            d.weights * spread_ + d.weight_sum * centre_distance_);
+        return kRounding * (d.exact_total * bones.difference + d.decoded_total * bones.stretch * d.place +
+                            d.weights * bones.spread + d.weight_sum * bones.distance);
     }
 
     PosableMesh exact_, decoded_;
@@ -289,16 +327,12 @@ private:
     std::vector<bool> touched_;  // by a target of either scene
     bool is_measured_ = false;
     bool has_bounds_ = false;
-    std::vector<Group> groups_;
-    std::vector<Difference> differences_;
-    Difference worst_case_;
-    std::vector<Box<glm::dvec3>> boxes_;  // per bone: bounds of the vertices that it moves, in mesh space
-    std::vector<BoneDifference> bone_differences_;
-    double largest_difference_ = 0.0;
-    double stretch_ = 0.0;
-    double spread_ = 0.0;  // metres from the centre, over everything that the bones move
-    glm::dvec3 centre_{0.0};
-    double centre_distance_ = 0.0;  // from the origin
+    std::vector<std::vector<std::uint32_t>> entries_;  // lists of palette entries, ascending
+    std::vector<Node> nodes_;
+    std::vector<std::uint32_t> vertices_;  // those that are compared, node by node
+    std::vector<Difference> differences_;  // per vertex
+    std::vector<Box<glm::dvec3>> boxes_;   // per bone: bounds of the vertices that it moves, in mesh space
+    std::vector<Bone> bones_;
 };
 
 /// Joints that move no vertex.
@@ -385,8 +419,10 @@ public:
     }
 
     [[nodiscard]] const MeasuredError& worst() const { return worst_; }
-    void start_anew() {
+    /// Passes over errors below `known`, the error of another pose.
+    void start_anew(double known) {
         worst_ = {};
+        worst_.metres = std::nextafter(known, 0.0);  // an equal error counts: the result does not depend on the order
         for (MeshPair& pair : pairs_) pair.forget_pose();
     }
 
@@ -465,9 +501,14 @@ std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decode
     }
     SharedProgress progress(options.progress, static_cast<double>(total));
     std::vector<Comparison> workers(threads, comparison);
+    std::mutex guard;
+    double known = std::min(std::max(options.known, errors.back().metres), options.limit);
     in_parallel(threads, clips.size(), [&](std::size_t k, std::size_t worker) {
         Comparison& own = workers[worker];
-        own.start_anew();
+        {
+            const std::lock_guard lock(guard);
+            own.start_anew(known);
+        }
         constexpr std::size_t kCoarse = 64;
         std::size_t done = 0;
         for (const bool is_coarse :
@@ -479,7 +520,10 @@ std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decode
             }
         }
         progress.add(static_cast<double>(done % kCoarse));
+        if (own.worst().clip == kNone) return;  // no worse than another pose
         errors[k] = own.worst();
+        const std::lock_guard lock(guard);
+        if (errors[k].metres <= options.limit) known = std::max(known, errors[k].metres);
     });
     return errors;
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,6 +31,8 @@ struct MeasureOptions {
     VertexMaps vertex_maps{};
     std::function<void(double)> progress{};  ///< called with the fraction done, 0 to 1; may be empty
     std::size_t threads = 1;                 ///< maximum; the result does not depend on it
+    double known = 0.0;                      ///< metres, at most the limit: smaller errors need not be found
+    double limit = std::numeric_limits<double>::infinity();  ///< metres: for measure_clips
 };
 
 /// Compares every vertex, displaced and skinned, and every joint that moves none, in the rest pose and in every clip:
@@ -39,7 +42,9 @@ struct MeasureOptions {
 /// \param decoded  joints, meshes and clips in the numbering of the exact scene
 MeasuredError measure_error(const Scene& exact, const Scene& decoded, const MeasureOptions& options = {});
 
-/// As above, for some clips by number: the worst error of each and, last, that of the rest pose.
+/// As above, for some clips by number: the error of each and, last, that of the rest pose. Errors above the limit are
+/// the clip's worst. So is the largest of those that are at most the limit; the others may be less than the worst, or
+/// 0.
 std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decoded, std::span<const std::uint32_t> clips,
                                          const MeasureOptions& options = {});
 

@@ -120,6 +120,7 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
     std::iota(to_pack.begin(), to_pack.end(), 0u);
     std::vector<std::byte> bytes;
     double done = geometry_done;
+    double known = 0.0;  // metres: the largest error of the clips that are within the bound
     for (int number = 0; number < kAttempts; ++number) {
         // The first attempt usually is the last: progress never decreases, and keeps some room for more.
         const double attempt_done = done + kAttemptShare * (1.0 - done);
@@ -134,13 +135,19 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
         how.compact = true;
         how.geometry = &geometry;
         bytes = build_chunks(scene, generator, unheard, how);
-        const std::vector<MeasuredError> found =
-            measure(exact, geometry, bytes, to_pack,
-                    {.progress = part_of(progress, packing_done, attempt_done), .threads = threads});
+        const std::vector<MeasuredError> found = measure(exact, geometry, bytes, to_pack,
+                                                         {.progress = part_of(progress, packing_done, attempt_done),
+                                                          .threads = threads,
+                                                          .known = known,
+                                                          .limit = result.max_error});
         done = attempt_done;
         for (std::size_t k = 0; k < to_pack.size(); ++k) errors[to_pack[k]] = found[k];
         errors.back() = found.back();
-        std::erase_if(to_pack, [&](std::uint32_t clip) { return errors[clip].metres <= result.max_error; });
+        std::erase_if(to_pack, [&](std::uint32_t clip) {
+            if (!(errors[clip].metres <= result.max_error)) return false;
+            known = std::max(known, errors[clip].metres);
+            return true;
+        });
         if (to_pack.empty() || !(errors.back().metres <= result.max_error)) break;
         for (const std::uint32_t clip : to_pack) {
             const double excess = errors[clip].metres / result.max_error - 1.0;

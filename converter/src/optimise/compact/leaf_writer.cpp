@@ -10,8 +10,8 @@ namespace bendy::converter {
 namespace {
 
 /// For a longer payload, the encodings are compared on a sample from its middle.
-constexpr std::size_t kSample = std::size_t{1} << 18;
-constexpr std::size_t kLong = 4 * kSample;
+constexpr std::size_t kSample = std::size_t{1} << 16U;
+constexpr std::size_t kLong = 16 * kSample;
 
 /// A codec with its arguments for encode_payload.
 struct Way {

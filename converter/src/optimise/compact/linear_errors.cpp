@@ -18,98 +18,149 @@ constexpr std::size_t kLanes = 8;                                     // frames 
 constexpr std::size_t kMostTried = 160;                               // frames on which plans are tried
 constexpr std::size_t kMostCoefficientBytes = std::size_t{1} << 26U;  // for all coefficients
 
-// One number, a vector and a matrix per lane. The loops over lanes are innermost, and compile to vector instructions.
-// Like all of the converter, they are compiled without fused multiply-add, so that every machine chooses the same
-// steps.
-using Lane = std::array<float, kLanes>;
+// Functions that are compiled for several sets of instructions are inlined into one for each.
+#if defined(__GNUC__) && defined(__x86_64__)
+#define BENDY_INLINE [[gnu::always_inline]] inline
+#define BENDY_HAS_AVX2
+#else
+#define BENDY_INLINE inline
+#endif
+
+// One number per lane. Like all of the converter, lanes are computed without fused multiply-add, so that every machine
+// chooses the same steps.
+#ifdef __GNUC__
+#pragma GCC diagnostic ignored "-Wpsabi"  // of passing registers that a processor may not have: all is inlined
+using Floats [[gnu::vector_size(kLanes * sizeof(float))]] = float;
+using WideFloats [[gnu::vector_size(kLanes * sizeof(double))]] = double;
+
+struct alignas(kLanes * sizeof(float)) Lane {
+    Floats all;
+    BENDY_INLINE friend Lane operator+(const Lane& a, const Lane& b) { return {a.all + b.all}; }
+    BENDY_INLINE friend Lane operator-(const Lane& a, const Lane& b) { return {a.all - b.all}; }
+    BENDY_INLINE friend Lane operator*(const Lane& a, const Lane& b) { return {a.all * b.all}; }
+    BENDY_INLINE friend Lane operator*(const Lane& a, float b) { return {a.all * b}; }
+};
+
+struct alignas(kLanes * sizeof(double)) Doubles {
+    WideFloats all;
+    BENDY_INLINE friend Doubles operator+(const Doubles& a, const Doubles& b) { return {a.all + b.all}; }
+    BENDY_INLINE friend Doubles operator-(const Doubles& a, const Doubles& b) { return {a.all - b.all}; }
+    BENDY_INLINE friend Doubles operator+(const Doubles& a, double b) { return {a.all + b}; }
+    BENDY_INLINE friend Doubles operator-(const Doubles& a, double b) { return {a.all - b}; }
+    BENDY_INLINE friend Doubles operator*(const Doubles& a, double b) { return {a.all * b}; }
+};
+
+BENDY_INLINE Doubles to_doubles(const Lane& numbers) {
+    return {__builtin_convertvector(numbers.all, WideFloats)};
+}
+BENDY_INLINE Lane to_floats(const Doubles& numbers) {
+    return {__builtin_convertvector(numbers.all, Floats)};
+}
+#else
+template <class Number>
+struct Numbers {
+    std::array<Number, kLanes> all;
+
+    template <class Operation>
+    static Numbers each(const Operation& operation) {
+        Numbers result;
+        for (std::size_t l = 0; l < kLanes; ++l) result.all[l] = operation(l);
+        return result;
+    }
+    friend Numbers operator+(const Numbers& a, const Numbers& b) {
+        return each([&](std::size_t l) { return a.all[l] + b.all[l]; });
+    }
+    friend Numbers operator-(const Numbers& a, const Numbers& b) {
+        return each([&](std::size_t l) { return a.all[l] - b.all[l]; });
+    }
+    friend Numbers operator*(const Numbers& a, const Numbers& b) {
+        return each([&](std::size_t l) { return a.all[l] * b.all[l]; });
+    }
+    friend Numbers operator+(const Numbers& a, Number b) {
+        return each([&](std::size_t l) { return a.all[l] + b; });
+    }
+    friend Numbers operator-(const Numbers& a, Number b) {
+        return each([&](std::size_t l) { return a.all[l] - b; });
+    }
+    friend Numbers operator*(const Numbers& a, Number b) {
+        return each([&](std::size_t l) { return a.all[l] * b; });
+    }
+};
+using Lane = Numbers<float>;
+using Doubles = Numbers<double>;
+
+Doubles to_doubles(const Lane& numbers) {
+    return Doubles::each([&](std::size_t l) { return double{numbers.all[l]}; });
+}
+Lane to_floats(const Doubles& numbers) {
+    return Lane::each([&](std::size_t l) { return static_cast<float>(numbers.all[l]); });
+}
+#endif
 using Vector = std::array<Lane, 3>;
 using Matrix = std::array<Vector, 3>;  // columns
 
-// These functions take and return values: no aliasing between inputs and output, so that compilers vectorise.
-
 /// v + m * w
-Vector plus_product(Vector v, const Matrix& m, const Vector& w) {
-    for (std::size_t l = 0; l < kLanes; ++l) {
-        v[0][l] += m[0][0][l] * w[0][l] + m[1][0][l] * w[1][l] + m[2][0][l] * w[2][l];
-        v[1][l] += m[0][1][l] * w[0][l] + m[1][1][l] * w[1][l] + m[2][1][l] * w[2][l];
-        v[2][l] += m[0][2][l] * w[0][l] + m[1][2][l] * w[1][l] + m[2][2][l] * w[2][l];
-    }
-    return v;
+BENDY_INLINE Vector plus_product(const Vector& v, const Matrix& m, const Vector& w) {
+    return {v[0] + (m[0][0] * w[0] + m[1][0] * w[1] + m[2][0] * w[2]),
+            v[1] + (m[0][1] * w[0] + m[1][1] * w[1] + m[2][1] * w[2]),
+            v[2] + (m[0][2] * w[0] + m[1][2] * w[1] + m[2][2] * w[2])};
 }
 
 /// v + f * w
-Vector plus_scaled(Vector v, const Lane& f, const Vector& w) {
-    for (std::size_t l = 0; l < kLanes; ++l) {
-        v[0][l] += f[l] * w[0][l];
-        v[1][l] += f[l] * w[1][l];
-        v[2][l] += f[l] * w[2][l];
-    }
-    return v;
+BENDY_INLINE Vector plus_scaled(const Vector& v, const Lane& f, const Vector& w) {
+    return {v[0] + f * w[0], v[1] + f * w[1], v[2] + f * w[2]};
 }
 
 /// -v in lanes where it is shorter than `most`, else 0.
-Vector minus_short(Vector v, float most) {
-    for (std::size_t l = 0; l < kLanes; ++l) {
-        const float square = v[0][l] * v[0][l] + v[1][l] * v[1][l] + v[2][l] * v[2][l];
-        const float sign = square < most * most ? -1.0f : 0.0f;
-        v[0][l] *= sign;
-        v[1][l] *= sign;
-        v[2][l] *= sign;
-    }
-    return v;
+BENDY_INLINE Vector minus_short(const Vector& v, float most) {
+    const Lane square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    Lane sign{};
+    for (std::size_t l = 0; l < kLanes; ++l) sign.all[l] = square.all[l] < most * most ? -1.0f : 0.0f;
+    return {v[0] * sign, v[1] * sign, v[2] * sign};
 }
 
 /// Column `c` of m * [by]x: the change of m under a rotation by a small vector.
-Vector turned_column(const Matrix& m, const Vector& by, std::size_t c) {
+BENDY_INLINE Vector turned_column(const Matrix& m, const Vector& by, std::size_t c) {
     const std::size_t next = (c + 1) % 3;
     const std::size_t last = (c + 2) % 3;
-    Vector v;
-    for (std::size_t l = 0; l < kLanes; ++l) {
-        v[0][l] = m[next][0][l] * by[last][l] - m[last][0][l] * by[next][l];
-        v[1][l] = m[next][1][l] * by[last][l] - m[last][1][l] * by[next][l];
-        v[2][l] = m[next][2][l] * by[last][l] - m[last][2][l] * by[next][l];
-    }
-    return v;
+    return {m[next][0] * by[last] - m[last][0] * by[next], m[next][1] * by[last] - m[last][1] * by[next],
+            m[next][2] * by[last] - m[last][2] * by[next]};
 }
 
 /// Squared lengths of m * point + v.
-Lane squares_of(const Matrix& m, const Vector& v, const glm::vec3& point) {
-    Lane squares;
-    for (std::size_t l = 0; l < kLanes; ++l) {
-        const float x = m[0][0][l] * point.x + m[1][0][l] * point.y + m[2][0][l] * point.z + v[0][l];
-        const float y = m[0][1][l] * point.x + m[1][1][l] * point.y + m[2][1][l] * point.z + v[1][l];
-        const float z = m[0][2][l] * point.x + m[1][2][l] * point.y + m[2][2][l] * point.z + v[2][l];
-        squares[l] = x * x + y * y + z * z;
-    }
-    return squares;
+BENDY_INLINE Lane squares_of(const Matrix& m, const Vector& v, const glm::vec3& point) {
+    const Lane x = m[0][0] * point.x + m[1][0] * point.y + m[2][0] * point.z + v[0];
+    const Lane y = m[0][1] * point.x + m[1][1] * point.y + m[2][1] * point.z + v[1];
+    const Lane z = m[0][2] * point.x + m[1][2] * point.y + m[2][2] * point.z + v[2];
+    return x * x + y * y + z * z;
 }
 
 /// sum + the squares of a vector's numbers
-Lane plus_squares(Lane sum, const Vector& v) {
-    for (std::size_t l = 0; l < kLanes; ++l) sum[l] += v[0][l] * v[0][l] + v[1][l] * v[1][l] + v[2][l] * v[2][l];
-    return sum;
+BENDY_INLINE Lane plus_squares(const Lane& sum, const Vector& v) {
+    return sum + (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
 /// The larger value per lane; NaN is kept.
-Lane larger(Lane a, const Lane& b) {
-    for (std::size_t l = 0; l < kLanes; ++l) a[l] = b[l] <= a[l] ? a[l] : b[l];
-    return a;
+BENDY_INLINE Lane larger(const Lane& a, const Lane& b) {
+    Lane most{};
+    for (std::size_t l = 0; l < kLanes; ++l) most.all[l] = b.all[l] <= a.all[l] ? a.all[l] : b.all[l];
+    return most;
 }
 
-bool are_at_most(const Lane& numbers, float most) {
+BENDY_INLINE bool are_at_most(const Lane& numbers, float most) {
     int above = 0;
-    for (std::size_t l = 0; l < kLanes; ++l) above += numbers[l] <= most ? 0 : 1;
+    for (std::size_t l = 0; l < kLanes; ++l) above += numbers.all[l] <= most ? 0 : 1;
     return above == 0;
 }
 
-Lane filled(float number) {
-    Lane all;
-    all.fill(number);
+BENDY_INLINE Lane filled(float number) {
+    Lane all{};
+    for (std::size_t l = 0; l < kLanes; ++l) all.all[l] = number;
     return all;
 }
 
 void set_lane(Vector& out, std::size_t lane, const glm::dvec3& v) {
-    for (std::size_t r = 0; r < 3; ++r) out[r][lane] = static_cast<float>(v[static_cast<int>(r)]);
+    for (std::size_t r = 0; r < 3; ++r) out[r].all[lane] = static_cast<float>(v[static_cast<int>(r)]);
 }
 
 void set_lane(Matrix& out, std::size_t lane, const glm::dmat3& m) {
@@ -140,24 +191,17 @@ bool is_finite(const glm::dmat3& m) {
     return bendy::converter::is_finite(m[0]) && bendy::converter::is_finite(m[1]) && bendy::converter::is_finite(m[2]);
 }
 
-using Doubles = std::array<double, kLanes>;
-
 /// The error of a property's component after rounding, relative to the source.
 /// \param wish  the value to round, without the correction
-Lane rounded(const Doubles& wish, const Lane& correction, double step, const Doubles& source) {
+BENDY_INLINE Lane rounded(const Doubles& wish, const Lane& correction, double step, const Doubles& source) {
     constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to an integer
-    const double steps = 1.0 / step;
-    Lane off;
-    for (std::size_t l = 0; l < kLanes; ++l) {
-        const double number = (wish[l] + double{correction[l]}) * steps + kShift - kShift;
-        off[l] = static_cast<float>(number * step - source[l]);
-    }
-    return off;
+    const Doubles number = (wish + to_doubles(correction)) * (1.0 / step) + kShift - kShift;
+    return to_floats(number * step - source);
 }
 
 /// As above, for all components.
 /// \param correction  added to the values of animated properties before rounding
-Vector rounded(const Property& property, const std::array<Doubles, 3>& values, const Vector& correction) {
+BENDY_INLINE Vector rounded(const Property& property, const std::array<Doubles, 3>& values, const Vector& correction) {
     Vector off{};
     for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t from = c < property.components ? c : 0;
@@ -167,11 +211,11 @@ Vector rounded(const Property& property, const std::array<Doubles, 3>& values, c
             case PropertyState::unpacked:
                 break;
             case PropertyState::rest:
-                off[c] = rounded(number, {}, step, values[c]);
+                off[c] = rounded(number, Lane{}, step, values[c]);
                 break;
             case PropertyState::constant:
-                number.fill(property.middle[static_cast<int>(from)]);
-                off[c] = rounded(number, {}, step, values[c]);
+                number = number + property.middle[static_cast<int>(from)];
+                off[c] = rounded(number, Lane{}, step, values[c]);
                 break;
             case PropertyState::animated:
                 off[c] = rounded(values[from], correction[from], step, values[c]);
@@ -262,7 +306,7 @@ void LinearErrors::read_joint(const ClipFrames& frames, std::size_t frame, std::
     set_lane(out.below_above, lane, is_finite(inverse) ? inverse : glm::dmat3(0.0));
     for (std::size_t path = 0; path < kPaths; ++path) {
         const glm::dvec3 value = frames.relative(frame, joint, static_cast<TrackPath>(path));
-        for (std::size_t c = 0; c < 3; ++c) out.values[path][c][lane] = value[static_cast<int>(c)];
+        for (std::size_t c = 0; c < 3; ++c) out.values[path][c].all[lane] = value[static_cast<int>(c)];
     }
     const glm::dmat3 jacobian = jacobian_of(frames.relative(frame, joint, TrackPath::rotation));
     set_lane(out.jacobian, lane, jacobian);
@@ -310,7 +354,21 @@ void LinearErrors::keep(std::size_t first, std::size_t end) {
     }
 }
 
-bool LinearErrors::try_block(std::span<const JointPlan> plans, std::size_t block, std::size_t first, std::size_t end) {
+BENDY_INLINE bool LinearErrors::is_near(const ProbeSet& probes, const Error& error) const {
+    // A point's error is at most that of the middle plus the linear part's at the radius; (a + b)^2 <= 2 (a^2 + b^2).
+    Lane bound{};
+    for (const Vector& column : error.linear) bound = plus_squares(bound, column);
+    const Lane middle = squares_of(error.linear, error.origin, probes.middle);
+    const float radius = probes.radius * probes.radius;
+    bound = (bound * radius + middle) * 2.0f;
+    if (are_at_most(bound, most_)) return true;
+    Lane most{};
+    for (const glm::vec3& point : probes.points) most = larger(most, squares_of(error.linear, error.origin, point));
+    return are_at_most(most, most_);
+}
+
+BENDY_INLINE bool LinearErrors::try_block_anywhere(std::span<const JointPlan> plans, std::size_t block,
+                                                   std::size_t first, std::size_t end) {
     static const Error no_error{};
     const std::size_t row = block * joints_;
     for (std::size_t j = first; j < end; ++j) {
@@ -366,17 +424,20 @@ bool LinearErrors::try_block(std::span<const JointPlan> plans, std::size_t block
     return true;
 }
 
-bool LinearErrors::is_near(const ProbeSet& probes, const Error& error) const {
-    // A point's error is at most that of the middle plus the linear part's at the radius; (a + b)^2 <= 2 (a^2 + b^2).
-    Lane bound{};
-    for (const Vector& column : error.linear) bound = plus_squares(bound, column);
-    const Lane middle = squares_of(error.linear, error.origin, probes.middle);
-    const float radius = probes.radius * probes.radius;
-    for (std::size_t l = 0; l < kLanes; ++l) bound[l] = 2.0f * (bound[l] * radius + middle[l]);
-    if (are_at_most(bound, most_)) return true;
-    Lane most{};
-    for (const glm::vec3& point : probes.points) most = larger(most, squares_of(error.linear, error.origin, point));
-    return are_at_most(most, most_);
+bool LinearErrors::try_block(std::span<const JointPlan> plans, std::size_t block, std::size_t first, std::size_t end) {
+#ifdef BENDY_HAS_AVX2
+    static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
+    if (has_avx2) return try_block_avx2(plans, block, first, end);
+#endif
+    return try_block_anywhere(plans, block, first, end);
 }
+
+#ifdef BENDY_HAS_AVX2
+/// The same operations, of more lanes at once: AVX2 does not include fused multiply-add.
+[[gnu::target("avx2")]] bool LinearErrors::try_block_avx2(std::span<const JointPlan> plans, std::size_t block,
+                                                          std::size_t first, std::size_t end) {
+    return try_block_anywhere(plans, block, first, end);
+}
+#endif
 
 }  // namespace bendy::converter

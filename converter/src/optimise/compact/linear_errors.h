@@ -42,6 +42,8 @@ private:
     struct ProbeSet;
 
     bool try_block(std::span<const JointPlan> plans, std::size_t block, std::size_t first, std::size_t end);
+    bool try_block_anywhere(std::span<const JointPlan> plans, std::size_t block, std::size_t first, std::size_t end);
+    bool try_block_avx2(std::span<const JointPlan> plans, std::size_t block, std::size_t first, std::size_t end);
     [[nodiscard]] bool is_near(const ProbeSet& probes, const Error& error) const;
     void read_joint(const ClipFrames& frames, std::size_t frame, std::size_t lane, std::size_t joint,
                     std::span<const Affine> pose, const std::vector<glm::dvec3>& aims, JointFrames& out) const;

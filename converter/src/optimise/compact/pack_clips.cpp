@@ -45,11 +45,17 @@ std::uint64_t stored_size(Bytes payload) {
     return encoded && encoded->size() < payload.size() ? encoded->size() : payload.size();
 }
 
+/// Memory and disk count equally.
+bool is_smaller(const Packed& a, const Packed& b) {
+    return a.bytes.size() + a.stored < b.bytes.size() + b.stored;
+}
+
 /// The clip's tracks, packed within the bound; nothing if that is impossible.
-/// \param share  of the bound that the frames may use; the rest is for the times between them
+/// \param share    of the bound that the frames may use; the rest is for the times between them
+/// \param rival    if set: a result that is not smaller is returned unmeasured
 std::optional<Packed> pack(SourceMotion& source, const ClipFrames& frames, const GridTracks& tracks,
                            const std::vector<bool>& is_replaced, const std::vector<std::vector<glm::dvec3>>& probes,
-                           double max_error, double share, bool corrects) {
+                           double max_error, double share, bool corrects, const Packed* rival) {
     constexpr int kAttempts = 6;
     double aim = 0.998 * share * max_error;  // less than the bound: floats are rounded, and frames are not everything
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -59,11 +65,10 @@ std::optional<Packed> pack(SourceMotion& source, const ClipFrames& frames, const
         const auto joints = static_cast<std::uint32_t>(frames.joints());
         const auto view = read_packed(packed.bytes, joints, 0, faults);
         if (!view) return std::nullopt;
+        packed.stored = stored_size(packed.bytes);
+        if (rival != nullptr && !is_smaller(packed, *rival)) return packed;
         packed.worst = measure_packed(source, is_replaced, *view, probes, 8.0 * max_error);
-        if (packed.worst.metres <= max_error) {
-            packed.stored = stored_size(packed.bytes);
-            return packed;
-        }
+        if (packed.worst.metres <= max_error) return packed;
         constexpr double kHopeless = 4.0;
         if (packed.worst.metres > kHopeless * max_error) return std::nullopt;
         aim *= 0.97 * max_error / packed.worst.metres;
@@ -83,17 +88,14 @@ std::uint64_t key_bytes(const Clip& clip, const std::vector<bool>* only = nullpt
     return numbers * sizeof(float);
 }
 
-/// Memory and disk count equally.
-bool is_smaller(const Packed& a, const Packed& b) {
-    return a.bytes.size() + a.stored < b.bytes.size() + b.stored;
-}
-
 /// Packs with corrections, which makes most clips smaller; without them if their error is too large.
 std::optional<Packed> pack_frames(SourceMotion& source, const GridTracks& tracks, const std::vector<bool>& is_replaced,
-                                  const std::vector<std::vector<glm::dvec3>>& probes, double max_error, double share) {
+                                  const std::vector<std::vector<glm::dvec3>>& probes, double max_error, double share,
+                                  const Packed* rival = nullptr) {
     const ClipFrames frames(source.scene(), source.clip(), tracks.grid);
     for (const bool corrects : {true, false}) {
-        if (auto packed = pack(source, frames, tracks, is_replaced, probes, max_error, share, corrects)) return packed;
+        if (auto packed = pack(source, frames, tracks, is_replaced, probes, max_error, share, corrects, rival))
+            return packed;
     }
     return std::nullopt;
 }
@@ -109,7 +111,8 @@ void pack_thinner(SourceMotion& source, const GridTracks& tracks, const std::vec
             thin_grid(source.scene(), source.clip(), tracks, kFewer.at(k), probes, kMost * max_error);
         if (!thin) return;
         const GridTracks thinner{thin->grid, tracks.tracks};
-        auto packed = pack_frames(source, thinner, is_replaced, probes, max_error, 1.0 - thin->error / max_error);
+        auto packed =
+            pack_frames(source, thinner, is_replaced, probes, max_error, 1.0 - thin->error / max_error, &best);
         if (!packed || !is_smaller(*packed, best)) return;
         best = *std::move(packed);
         if (progress) progress(static_cast<double>(k + 1) / static_cast<double>(kFewer.size()));
