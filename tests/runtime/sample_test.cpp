@@ -471,6 +471,23 @@ TEST(Sample, OneClipAfterAnotherKeepsNothingOfTheFirst) {
     EXPECT_EQ(weights_of(pose), (std::vector{0.25f, 0.25f, 1.25f}));
 }
 
+TEST(Sample, OfTwoKeysThatDifferByRoundingTheFirstHolds) {
+    test::ModelSpec spec = two_meshes();
+    constexpr float kRounded = 1.0f + 2.0f * std::numeric_limits<float>::epsilon();
+    constexpr float kOther = 1.0f + 16.0f * std::numeric_limits<float>::epsilon();
+    spec.more = {test::clip_node({"still",
+                                  0.0f,
+                                  1.0f,
+                                  false,
+                                  {{TrackPath::translation, 0, 3, {0, 1}, {1, 0, 0, kRounded, 0, 0}},
+                                   {TrackPath::scale, 1, 3, {0, 1}, {1, 1, 1, kOther, 1, 1}}}})};
+    const Owned model(test::build_file(spec));
+    Pose pose(*model);
+    ASSERT_TRUE(sample(pose, model->clip("still"), 1.0f));
+    EXPECT_EQ(pose.local(0).translation, glm::vec3(1.0f, 0.0f, 0.0f));
+    EXPECT_EQ(pose.local(1).scale, glm::vec3(kOther, 1.0f, 1.0f));
+}
+
 TEST(Sample, WeightsGoToTheMeshesOwnTargets) {
     test::ModelSpec spec = two_meshes();
     spec.more = {test::clip_node({"smile", 0.0f, 1.0f, false, {{TrackPath::weights, 1, 2, {0, 1}, {1, 2, 3, 6}}}})};

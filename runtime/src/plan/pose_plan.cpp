@@ -179,11 +179,19 @@ SampleLine& line_of(const TrackView& track, std::vector<SampleLine>& lines) {
     return lines.back();
 }
 
-/// Returns whether a track of a joint has one value. Of longer tracks, reading all keys would take too long.
+/// Returns whether a track of a joint has one value, but for float rounding: exporters write a constant as two keys
+/// that differ by it. Of longer tracks, reading all keys would take too long.
 bool is_constant(const TrackView& track) {
-    if (track.path == TrackPath::weights || track.interpolation == Interpolation::cubic) return false;
-    const auto second = track.values.begin() + static_cast<std::ptrdiff_t>(track.components);
-    return track.keys == 1 || (track.keys == 2 && std::equal(track.values.begin(), second, second));
+    if (track.path == TrackPath::weights || track.interpolation == Interpolation::cubic || track.keys > 2) return false;
+    constexpr float kRounding = 4.0f * std::numeric_limits<float>::epsilon();  // of the largest number
+    float largest = 0.0f;
+    float difference = 0.0f;
+    const std::size_t last = (track.keys - std::size_t{1}) * track.components;
+    for (std::size_t c = 0; c < track.components; ++c) {
+        largest = std::max(largest, std::abs(track.values[c]));
+        difference = std::max(difference, std::abs(track.values[last + c] - track.values[c]));
+    }
+    return difference <= kRounding * largest;
 }
 
 void set_constant(const TrackView& track, std::span<JointBlock> start) {

@@ -261,6 +261,22 @@ TEST(PackClips, StepsAndSplinesStay) {
     pack_and_check(std::move(scene));
 }
 
+TEST(PackClips, StepsThatAreConstantWithinTheBoundArePacked) {
+    Scene scene = chain(8);
+    rotate(scene, 0, frames(40, 30.0), wave);
+    for (std::uint32_t joint = 1; joint < 8; ++joint) {
+        scene.clips[0].tracks.push_back(
+            {TrackPath::rotation, Interpolation::step, joint, 4, {0.0f, 1.3f}, {0, 0, 0, 1, 2e-7f, 0, 0, 1}});
+        scene.clips[0].tracks.push_back(
+            {TrackPath::scale, Interpolation::step, joint, 3, {0.0f, 1.3f}, {1, 1, 1, 1.0000002f, 1, 1}});
+    }
+    scene.clips[0].tracks.push_back(
+        {TrackPath::translation, Interpolation::step, 7, 3, {0.0f, 1.3f}, {0, 0, 0, 0.5f, 0, 0}});
+    pack_clips(scene, std::vector{1e-4});
+    ASSERT_EQ(scene.clips[0].tracks.size(), 1u);  // the one that moves
+    EXPECT_EQ(scene.clips[0].tracks[0].path, TrackPath::translation);
+}
+
 TEST(PackClips, IsTheSameEveryTime) {
     const auto pack = [] {
         Scene scene = chain(5);

@@ -62,13 +62,14 @@ struct Tracks {
     ClipSpan span;
 };
 
-Tracks sort_tracks(const Clip& clip) {
+Tracks sort_tracks(const Clip& clip, const std::vector<bool>& still) {
     Tracks tracks;
     tracks.span = span_of(clip);
     for (std::uint32_t number = 0; number < clip.tracks.size(); ++number) {
         const Track& track = clip.tracks[number];
-        if (!is_packable(track)) continue;
-        if (is_constant(track)) {
+        const bool is_still = number < still.size() && still[number];
+        if (!is_packable(track) && !is_still) continue;
+        if (is_still || is_constant(track)) {
             tracks.still.push_back(number);
             continue;
         }
@@ -142,8 +143,8 @@ double Grid::snap() const {
     return rate != 0.0f ? kGridTolerance / rate : 0.0;
 }
 
-std::optional<GridTracks> find_grid(const Clip& clip, std::size_t most_frames) {
-    const Tracks tracks = sort_tracks(clip);
+std::optional<GridTracks> find_grid(const Clip& clip, std::size_t most_frames, const std::vector<bool>& still) {
+    const Tracks tracks = sort_tracks(clip, still);
     GridTracks found;
     if (!tracks.moving.empty()) {
         found = even_grid(clip, tracks, static_cast<double>(most_frames));
@@ -162,6 +163,12 @@ namespace {
 
 constexpr std::uint32_t kFewest = 12;  // minimum number of frames left
 
+/// The length of the linear part's longest column: the most by which it lengthens a vector, unless it shears.
+double stretch_of(const Affine& place) {
+    const glm::dmat3& m = place.linear;
+    return std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
+}
+
 /// Distance in metres, in the parent's space, between two values of a joint, at its probes.
 double difference(const Local& a, const Local& b, TrackPath path, double reach) {
     if (path == TrackPath::translation) return glm::length(a.translation - b.translation);
@@ -169,6 +176,20 @@ double difference(const Local& a, const Local& b, TrackPath path, double reach) 
     const double sign = glm::dot(a.rotation, b.rotation) < 0.0 ? -1.0 : 1.0;
     const glm::dquat off = a.rotation - b.rotation * sign;
     return 2.0 * std::sqrt(glm::dot(off, off)) * reach;
+}
+
+/// Per joint, a bound on the distance of the farthest probe that it moves, at rest and in its own space.
+std::vector<double> reaches_of(const Scene& scene, const std::vector<std::vector<glm::dvec3>>& probes) {
+    std::vector<double> reaches(scene.joints.size(), 0.0);
+    for (std::size_t j = reaches.size(); j-- > 0;) {
+        for (const glm::dvec3& probe : probes[j]) reaches[j] = std::max(reaches[j], glm::length(probe));
+        const Joint& joint = scene.joints[j];
+        if (joint.parent == kNone) continue;
+        const Affine local = to_affine(local_of(joint.rest), joint.rest.shear);
+        double& above = reaches[joint.parent];
+        above = std::max(above, glm::length(local.origin) + stretch_of(local) * reaches[j]);
+    }
+    return reaches;
 }
 
 /// Interpolates between two values; the chord is near enough to the arc for this purpose.
@@ -202,6 +223,42 @@ double error_of(const Track& track, const Local& rest, const Grid& from, const G
 }
 
 }  // namespace
+
+std::vector<bool> find_still(const Scene& scene, const Clip& clip, const std::vector<std::vector<glm::dvec3>>& probes,
+                             double max_error) {
+    constexpr double kPart = 0.2;  // of the bound, for all joints of a chain together
+    std::vector<Local> rest;
+    std::vector<std::size_t> depth;
+    for (const Joint& joint : scene.joints) {
+        rest.push_back(local_of(joint.rest));
+        depth.push_back(joint.parent == kNone ? 1 : depth[joint.parent] + 1);
+    }
+    std::vector<Affine> places(rest.size());
+    place_joints(scene.joints, rest, places);
+    const std::vector<double> reaches = reaches_of(scene, probes);
+    const double deepest = depth.empty() ? 1.0 : static_cast<double>(*std::max_element(depth.begin(), depth.end()));
+    std::vector<bool> still(clip.tracks.size());
+    for (std::size_t number = 0; number < still.size(); ++number) {
+        const Track& track = clip.tracks[number];
+        if (track.path == TrackPath::weights || track.interpolation != Interpolation::step) continue;
+        const std::uint32_t parent = scene.joints[track.target].parent;
+        const double stretch = parent == kNone ? 1.0 : stretch_of(places[parent]);
+        const auto at = [&](std::size_t key) {
+            Local local = rest[track.target];
+            const auto from = track.values.begin() + static_cast<std::ptrdiff_t>(key * track.components);
+            set_property(track.path, {from, from + track.components}, local);
+            return local;
+        };
+        const Local first = at(0);
+        bool is_still = true;
+        for (std::size_t key = 1; key < track.times.size() && is_still; ++key) {
+            const double moved = difference(first, at(key), track.path, reaches[track.target]) * stretch;
+            is_still = moved <= kPart * max_error / deepest;
+        }
+        still[number] = is_still;
+    }
+    return still;
+}
 
 std::optional<ThinGrid> thin_grid(const Scene& scene, const Clip& clip, const GridTracks& tracks, std::uint32_t fewer,
                                   const std::vector<std::vector<glm::dvec3>>& probes, double most) {

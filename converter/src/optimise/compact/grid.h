@@ -32,11 +32,19 @@ double snapped(const Track& track, double seconds, double snap);
 /// joints. If no even grid holds them all, the list of all key times, if there are few. Constant tracks need no grid.
 /// Nothing if there is nothing to pack.
 /// \param most_frames  maximum number of frames of a grid
+/// \param still        per track: it counts as constant although its keys differ, see find_still; may be empty
 struct GridTracks {
     Grid grid;
     std::vector<std::uint32_t> tracks;
 };
-std::optional<GridTracks> find_grid(const Clip& clip, std::size_t most_frames = kMostFrames);
+std::optional<GridTracks> find_grid(const Clip& clip, std::size_t most_frames = kMostFrames,
+                                    const std::vector<bool>& still = {});
+
+/// Which step tracks are constant within a small part of the bound: exporters write constants as two such keys.
+/// \param probes     per joint, see find_probes
+/// \param max_error  metres in model space
+std::vector<bool> find_still(const Scene& scene, const Clip& clip, const std::vector<std::vector<glm::dvec3>>& probes,
+                             double max_error);
 
 /// Keys farther from a frame than this, in frames, are off the grid.
 inline constexpr double kGridTolerance = 0.01;

@@ -132,7 +132,7 @@ PackedReport pack_clip(const Scene& scene, Clip& clip, const std::vector<std::ve
     PackedReport report;
     report.name = clip.name;
     report.source_bytes = report.kept_bytes = key_bytes(clip);
-    const std::optional<GridTracks> tracks = find_grid(clip, limits.frames);
+    const std::optional<GridTracks> tracks = find_grid(clip, limits.frames, find_still(scene, clip, probes, max_error));
     if (!tracks) return report;
     std::vector<bool> is_replaced(clip.tracks.size());
     for (const std::uint32_t number : tracks->tracks) is_replaced[number] = true;
