@@ -256,6 +256,24 @@ class Structure(Case):
         self.assertEqual(len(data["chunks"]["id"]), 100_000)
         self.assertEqual(len(data["warnings"]["list"]), 1000)
 
+    def test_large_skeletons_have_fewer_pictures(self):
+        """At most 200,000 bones are drawn in all: of 20,000 joints, 10 frames in place of 16."""
+        joints = 20_000
+        file = GltfFile(nodes=[{"translation": [0.02 * (k % 7), 0.05, 0.01 * (k % 5)],
+                                **({"children": below} if (below := [n for n in (2 * k + 1, 2 * k + 2) if n < joints])
+                                   else {})} for k in range(joints)], scenes=[{"nodes": [0]}])
+        times = file.add([(0,), (1,)], "SCALAR")
+        moved = file.add([(0, 0, 0), (0, 1, 0)], "VEC3")
+        file.document["animations"] = [{"channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}],
+                                        "samplers": [{"input": times, "output": moved}]}]
+        file.write(self.folder / "skeleton.gltf")
+        result = self.bendy("convert", "-q", "skeleton.gltf", "-o", "skeleton.bendy")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        pictures = data_of(self.page("skeleton"))["pictures"]["list"]
+        self.assertEqual(len(pictures), 2)
+        clip = base64.b64decode(pictures[1]["src"].partition(",")[2], validate=True)
+        self.assertEqual(clip.count(b"ANMF"), 10)
+
     def test_options_that_exclude_each_other(self):
         path = self.converted("hostile")
         for option in (["--json"], ["--hex"], ["--all"], ["--chunk", "HEAD"]):

@@ -168,6 +168,12 @@ void Overlay::add_bones(Pose& pose, OverlayList& list) const {
         add_diamond(place(pose, joint), std::min(0.06f * length_of(joint), 0.008f * size_), kEndColour, list);
 }
 
+void Overlay::add_thin_bones(Pose& pose, OverlayList& list) const {
+    constexpr float kPixels = 0.75f;
+    for (const Bone& bone : bones_)
+        list.line(place(pose, bone.from), place(pose, bone.to), glm::vec4(kBoneColour, 1.0f), kPixels);
+}
+
 void Overlay::add_axes(Pose& pose, OverlayList& list) const {
     for (const std::uint32_t joint : ends_)
         add_axes_of(pose, joint, std::min(0.35f * length_of(joint), 0.06f * size_), 1.5f, list);

@@ -48,6 +48,7 @@ public:
 
     /// Each function adds to the list.
     void add_bones(Pose& pose, OverlayList& list) const;
+    void add_thin_bones(Pose& pose, OverlayList& list) const;
     void add_axes(Pose& pose, OverlayList& list) const;
     void add_constraints(Pose& pose, OverlayList& list) const;
     void add_targets(std::span<const TargetMark> targets, OverlayList& list) const;

@@ -279,7 +279,11 @@ void Renderer::draw_list(const std::vector<OverlayVertex>& list) const {
 void Renderer::draw_overlay(Pose& pose, const Camera& camera, const DrawOptions& options,
                             std::span<const TargetMark> targets, const glm::vec2& size) {
     list_.clear();
-    if (options.bones) overlay_.add_bones(pose, list_);
+    if (options.bones && options.thin_bones) {
+        overlay_.add_thin_bones(pose, list_);
+    } else if (options.bones) {
+        overlay_.add_bones(pose, list_);
+    }
     if (options.axes) overlay_.add_axes(pose, list_);
     if (options.constraints) overlay_.add_constraints(pose, list_);
     if (options.targets) overlay_.add_targets(targets, list_);

@@ -26,7 +26,8 @@ struct DrawOptions {
     bool surface = true;  ///< the character itself
     bool wireframe = false;
     bool bones = false;
-    bool axes = false;  ///< of the joints: X red, Y green, Z blue
+    bool thin_bones = false;  ///< each as a line, which takes an eighth of the triangles
+    bool axes = false;        ///< of the joints: X red, Y green, Z blue
     bool constraints = false;
     bool targets = false;                              ///< of IK chains
     std::uint32_t marked_joint = kNone;                ///< highlighted, with its axes
