@@ -1,5 +1,6 @@
 #include "optimise/compact/linear_errors.h"
 
+#include <bendy/format/public.h>
 #include <bendy/format/trig.h>
 
 #include <glm/geometric.hpp>
@@ -18,42 +19,34 @@ constexpr std::size_t kLanes = 8;                                     // frames 
 constexpr std::size_t kMostTried = 160;                               // frames on which plans are tried
 constexpr std::size_t kMostCoefficientBytes = std::size_t{1} << 26U;  // for all coefficients
 
-// Functions that are compiled for several sets of instructions are inlined into one for each.
-#if defined(__GNUC__) && defined(__x86_64__)
-#define BENDY_INLINE [[gnu::always_inline]] inline
-#define BENDY_HAS_AVX2
-#else
-#define BENDY_INLINE inline
-#endif
-
-// One number per lane. Like all of the converter, lanes are computed without fused multiply-add, so that every machine
-// chooses the same steps.
-#ifdef __GNUC__
+// One number per lane. Functions of lanes are inlined into one for each set of instructions. Like all of the converter,
+// lanes are computed without fused multiply-add, so that every machine chooses the same steps.
+#if defined(BENDY_GNU)
 #pragma GCC diagnostic ignored "-Wpsabi"  // of passing registers that a processor may not have: all is inlined
 using Floats [[gnu::vector_size(kLanes * sizeof(float))]] = float;
 using WideFloats [[gnu::vector_size(kLanes * sizeof(double))]] = double;
 
 struct alignas(kLanes * sizeof(float)) Lane {
     Floats all;
-    BENDY_INLINE friend Lane operator+(const Lane& a, const Lane& b) { return {a.all + b.all}; }
-    BENDY_INLINE friend Lane operator-(const Lane& a, const Lane& b) { return {a.all - b.all}; }
-    BENDY_INLINE friend Lane operator*(const Lane& a, const Lane& b) { return {a.all * b.all}; }
-    BENDY_INLINE friend Lane operator*(const Lane& a, float b) { return {a.all * b}; }
+    BENDY_ALWAYS_INLINE friend Lane operator+(const Lane& a, const Lane& b) { return {a.all + b.all}; }
+    BENDY_ALWAYS_INLINE friend Lane operator-(const Lane& a, const Lane& b) { return {a.all - b.all}; }
+    BENDY_ALWAYS_INLINE friend Lane operator*(const Lane& a, const Lane& b) { return {a.all * b.all}; }
+    BENDY_ALWAYS_INLINE friend Lane operator*(const Lane& a, float b) { return {a.all * b}; }
 };
 
 struct alignas(kLanes * sizeof(double)) Doubles {
     WideFloats all;
-    BENDY_INLINE friend Doubles operator+(const Doubles& a, const Doubles& b) { return {a.all + b.all}; }
-    BENDY_INLINE friend Doubles operator-(const Doubles& a, const Doubles& b) { return {a.all - b.all}; }
-    BENDY_INLINE friend Doubles operator+(const Doubles& a, double b) { return {a.all + b}; }
-    BENDY_INLINE friend Doubles operator-(const Doubles& a, double b) { return {a.all - b}; }
-    BENDY_INLINE friend Doubles operator*(const Doubles& a, double b) { return {a.all * b}; }
+    BENDY_ALWAYS_INLINE friend Doubles operator+(const Doubles& a, const Doubles& b) { return {a.all + b.all}; }
+    BENDY_ALWAYS_INLINE friend Doubles operator-(const Doubles& a, const Doubles& b) { return {a.all - b.all}; }
+    BENDY_ALWAYS_INLINE friend Doubles operator+(const Doubles& a, double b) { return {a.all + b}; }
+    BENDY_ALWAYS_INLINE friend Doubles operator-(const Doubles& a, double b) { return {a.all - b}; }
+    BENDY_ALWAYS_INLINE friend Doubles operator*(const Doubles& a, double b) { return {a.all * b}; }
 };
 
-BENDY_INLINE Doubles to_doubles(const Lane& numbers) {
+BENDY_ALWAYS_INLINE Doubles to_doubles(const Lane& numbers) {
     return {__builtin_convertvector(numbers.all, WideFloats)};
 }
-BENDY_INLINE Lane to_floats(const Doubles& numbers) {
+BENDY_ALWAYS_INLINE Lane to_floats(const Doubles& numbers) {
     return {__builtin_convertvector(numbers.all, Floats)};
 }
 #else
@@ -100,19 +93,19 @@ using Vector = std::array<Lane, 3>;
 using Matrix = std::array<Vector, 3>;  // columns
 
 /// v + m * w
-BENDY_INLINE Vector plus_product(const Vector& v, const Matrix& m, const Vector& w) {
+BENDY_ALWAYS_INLINE Vector plus_product(const Vector& v, const Matrix& m, const Vector& w) {
     return {v[0] + (m[0][0] * w[0] + m[1][0] * w[1] + m[2][0] * w[2]),
             v[1] + (m[0][1] * w[0] + m[1][1] * w[1] + m[2][1] * w[2]),
             v[2] + (m[0][2] * w[0] + m[1][2] * w[1] + m[2][2] * w[2])};
 }
 
 /// v + f * w
-BENDY_INLINE Vector plus_scaled(const Vector& v, const Lane& f, const Vector& w) {
+BENDY_ALWAYS_INLINE Vector plus_scaled(const Vector& v, const Lane& f, const Vector& w) {
     return {v[0] + f * w[0], v[1] + f * w[1], v[2] + f * w[2]};
 }
 
 /// -v in lanes where it is shorter than `most`, else 0.
-BENDY_INLINE Vector minus_short(const Vector& v, float most) {
+BENDY_ALWAYS_INLINE Vector minus_short(const Vector& v, float most) {
     const Lane square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     Lane sign{};
     for (std::size_t l = 0; l < kLanes; ++l) sign.all[l] = square.all[l] < most * most ? -1.0f : 0.0f;
@@ -120,7 +113,7 @@ BENDY_INLINE Vector minus_short(const Vector& v, float most) {
 }
 
 /// Column `c` of m * [by]x: the change of m under a rotation by a small vector.
-BENDY_INLINE Vector turned_column(const Matrix& m, const Vector& by, std::size_t c) {
+BENDY_ALWAYS_INLINE Vector turned_column(const Matrix& m, const Vector& by, std::size_t c) {
     const std::size_t next = (c + 1) % 3;
     const std::size_t last = (c + 2) % 3;
     return {m[next][0] * by[last] - m[last][0] * by[next], m[next][1] * by[last] - m[last][1] * by[next],
@@ -128,7 +121,7 @@ BENDY_INLINE Vector turned_column(const Matrix& m, const Vector& by, std::size_t
 }
 
 /// Squared lengths of m * point + v.
-BENDY_INLINE Lane squares_of(const Matrix& m, const Vector& v, const glm::vec3& point) {
+BENDY_ALWAYS_INLINE Lane squares_of(const Matrix& m, const Vector& v, const glm::vec3& point) {
     const Lane x = m[0][0] * point.x + m[1][0] * point.y + m[2][0] * point.z + v[0];
     const Lane y = m[0][1] * point.x + m[1][1] * point.y + m[2][1] * point.z + v[1];
     const Lane z = m[0][2] * point.x + m[1][2] * point.y + m[2][2] * point.z + v[2];
@@ -136,24 +129,24 @@ BENDY_INLINE Lane squares_of(const Matrix& m, const Vector& v, const glm::vec3& 
 }
 
 /// sum + the squares of a vector's numbers
-BENDY_INLINE Lane plus_squares(const Lane& sum, const Vector& v) {
+BENDY_ALWAYS_INLINE Lane plus_squares(const Lane& sum, const Vector& v) {
     return sum + (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
 /// The larger value per lane; NaN is kept.
-BENDY_INLINE Lane larger(const Lane& a, const Lane& b) {
+BENDY_ALWAYS_INLINE Lane larger(const Lane& a, const Lane& b) {
     Lane most{};
     for (std::size_t l = 0; l < kLanes; ++l) most.all[l] = b.all[l] <= a.all[l] ? a.all[l] : b.all[l];
     return most;
 }
 
-BENDY_INLINE bool are_at_most(const Lane& numbers, float most) {
+BENDY_ALWAYS_INLINE bool are_at_most(const Lane& numbers, float most) {
     int above = 0;
     for (std::size_t l = 0; l < kLanes; ++l) above += numbers.all[l] <= most ? 0 : 1;
     return above == 0;
 }
 
-BENDY_INLINE Lane filled(float number) {
+BENDY_ALWAYS_INLINE Lane filled(float number) {
     Lane all{};
     for (std::size_t l = 0; l < kLanes; ++l) all.all[l] = number;
     return all;
@@ -193,7 +186,7 @@ bool is_finite(const glm::dmat3& m) {
 
 /// The error of a property's component after rounding, relative to the source.
 /// \param wish  the value to round, without the correction
-BENDY_INLINE Lane rounded(const Doubles& wish, const Lane& correction, double step, const Doubles& source) {
+BENDY_ALWAYS_INLINE Lane rounded(const Doubles& wish, const Lane& correction, double step, const Doubles& source) {
     constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to an integer
     const Doubles number = (wish + to_doubles(correction)) * (1.0 / step) + kShift - kShift;
     return to_floats(number * step - source);
@@ -201,7 +194,8 @@ BENDY_INLINE Lane rounded(const Doubles& wish, const Lane& correction, double st
 
 /// As above, for all components.
 /// \param correction  added to the values of animated properties before rounding
-BENDY_INLINE Vector rounded(const Property& property, const std::array<Doubles, 3>& values, const Vector& correction) {
+BENDY_ALWAYS_INLINE Vector rounded(const Property& property, const std::array<Doubles, 3>& values,
+                                   const Vector& correction) {
     Vector off{};
     for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t from = c < property.components ? c : 0;
@@ -354,7 +348,7 @@ void LinearErrors::keep(std::size_t first, std::size_t end) {
     }
 }
 
-BENDY_INLINE bool LinearErrors::is_near(const ProbeSet& probes, const Error& error) const {
+BENDY_ALWAYS_INLINE bool LinearErrors::is_near(const ProbeSet& probes, const Error& error) const {
     // A point's error is at most that of the middle plus the linear part's at the radius; (a + b)^2 <= 2 (a^2 + b^2).
     Lane bound{};
     for (const Vector& column : error.linear) bound = plus_squares(bound, column);
@@ -367,8 +361,8 @@ BENDY_INLINE bool LinearErrors::is_near(const ProbeSet& probes, const Error& err
     return are_at_most(most, most_);
 }
 
-BENDY_INLINE bool LinearErrors::try_block_anywhere(std::span<const JointPlan> plans, std::size_t block,
-                                                   std::size_t first, std::size_t end) {
+BENDY_ALWAYS_INLINE bool LinearErrors::try_block_anywhere(std::span<const JointPlan> plans, std::size_t block,
+                                                          std::size_t first, std::size_t end) {
     static const Error no_error{};
     const std::size_t row = block * joints_;
     for (std::size_t j = first; j < end; ++j) {
@@ -425,14 +419,14 @@ BENDY_INLINE bool LinearErrors::try_block_anywhere(std::span<const JointPlan> pl
 }
 
 bool LinearErrors::try_block(std::span<const JointPlan> plans, std::size_t block, std::size_t first, std::size_t end) {
-#ifdef BENDY_HAS_AVX2
+#if defined(BENDY_GNU) && defined(__x86_64__) && !defined(__OPTIMIZE_SIZE__)
     static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
     if (has_avx2) return try_block_avx2(plans, block, first, end);
 #endif
     return try_block_anywhere(plans, block, first, end);
 }
 
-#ifdef BENDY_HAS_AVX2
+#if defined(BENDY_GNU) && defined(__x86_64__) && !defined(__OPTIMIZE_SIZE__)
 /// The same operations, of more lanes at once: AVX2 does not include fused multiply-add.
 [[gnu::target("avx2")]] bool LinearErrors::try_block_avx2(std::span<const JointPlan> plans, std::size_t block,
                                                           std::size_t first, std::size_t end) {
