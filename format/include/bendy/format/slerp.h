@@ -7,7 +7,7 @@
 
 namespace BENDY_PUBLIC bendy {
 
-/// Of a slerp along the shorter arc: the rotation is first * a + second * b.
+/// The weights of two rotations in a slerp along the shorter arc, which is first * a + second * b.
 struct SlerpWeights {
     double first, second;
 };
