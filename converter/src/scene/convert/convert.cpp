@@ -38,8 +38,7 @@ void auto_rig(Scene& /*scene*/, const std::vector<bool>& /*claimed*/, Report& /*
 void add_vrm_chains(Scene& /*scene*/, Report& /*report*/) {}
 #endif
 
-/// Attaches the rig file in the scene's extras. Returns true if it is complete, so that other sources
-/// are ignored.
+/// Attaches the rig file in the scene's extras. Returns true if it is complete, so that other sources are ignored.
 bool attach_exported_rig(Scene& scene, const JointIndex& index, Claims& claims, bool markers_are_told, Report& report) {
     const std::optional<Rig> rig = take_rig_from_extras(scene, report);
     if (!rig) return false;
