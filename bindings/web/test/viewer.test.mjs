@@ -6,7 +6,7 @@ import { launch, openTab, serve, skip } from './browser.mjs';
 import { example, repository } from './helpers.mjs';
 
 const bundle = readFileSync(new URL('../dist/bundle/bendy-viewer.js', import.meta.url));
-const poster = readFileSync(`${repository}/docs/pictures/page.png`);
+const poster = readFileSync(`${repository}/docs/pictures/mannequin.png`);
 const page = `<!doctype html><html lang="en"><meta charset="utf-8"><title>Viewer</title><link rel="icon" href="data:,">
 <meta http-equiv="content-security-policy" content="default-src 'self' data: blob:; script-src 'self' 'wasm-unsafe-eval' 'unsafe-inline'; style-src 'self'">
 <script type="module" src="bendy-viewer.js"></script><body></body></html>`;
