@@ -14,7 +14,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 PASSES = {"morph": "comp", "motions": "comp", "skin": "comp", "draw": "vert"}
-# What spirv-cross is told, and what is known of the result.
+# The options of spirv-cross for each language, and whether its result has been compiled or run.
 LANGUAGES = {"hlsl": (["--hlsl", "--shader-model", "50"], "glslangValidator compiles it; it has not been run."),
              "metal": (["--msl", "--msl-version", "20100", "--msl-decoration-binding"], "It has been neither compiled nor run.")}
 

@@ -153,7 +153,7 @@ private:
     struct Node {
         std::uint32_t entries = 0;           // number of the list of palette entries
         std::uint32_t first = 0, count = 0;  // of a box without parts: its vertices
-        std::uint32_t end = 0;               // number of the first node that is no part of it
+        std::uint32_t end = 0;               // index of the first node after its parts
         glm::dvec3 middle{0.0};              // in mesh space
         glm::dvec3 half{0.0};                // from the middle to a corner
         Difference worst_case;
@@ -166,7 +166,7 @@ private:
         double stretch = 0.0;   // of the decoded matrix, at most
         double distance = 0.0;  // from the origin to what it moves, at most
     };
-    /// What the bones of a node do to its vertices in this pose, at most.
+    /// Upper bounds for all vertices of a node in this pose.
     struct PoseBound {
         double difference =
             0.0;                // metres between the places of a point, by one bone of the exact and the decoded scene
