@@ -93,6 +93,54 @@ class PoseCommand(Case):
         for other in ("--lod", "--compact", "--max-error=1mm"):
             self.assertIn("--sort-vertices", self.misused("convert", "x.glb", "--sort-vertices", other))
 
+    def test_frames_of_a_clip(self):
+        path = self.convert()
+        for suffix in ("obj", "ply", "json"):
+            self.done("pose", path, "--clip", "Walk", "--frames", "8..11@25", "-o", f"run_###.{suffix}")
+            files = sorted(file.name for file in self.folder.glob(f"run_*.{suffix}"))
+            self.assertEqual(files, [f"run_{frame:03}.{suffix}" for frame in range(8, 12)])
+            for frame in range(8, 12):
+                self.done("pose", path, "--clip", "Walk", "--time", str(frame / 25), "-o", f"one.{suffix}")
+                self.assertEqual((self.folder / f"run_{frame:03}.{suffix}").read_bytes(),
+                                 (self.folder / f"one.{suffix}").read_bytes(), frame)
+
+    def test_the_number_of_a_frame_replaces_the_last_run_of_signs(self):
+        for name, file in (("#.obj", "12.obj"), ("a#b##.obj", "a#b12.obj"), ("#####_x.obj", "00012_x.obj")):
+            self.done("pose", self.convert(), "--clip", "Walk", "--frames", "12..12@100", "-o", name)
+            self.assertTrue((self.folder / file).is_file(), file)
+
+    def test_the_clips_curves_and_targets_of_every_frame(self):
+        said = self.bendy("pose", self.convert(), "--clip", "Walk", "--frames", "0..3@10", "--reach",
+                          "IK_LeftArm=0.1,1.25,-0.2", "-o", "r#.json")
+        self.assertEqual(said.returncode, 0)
+        self.assertRegex(said.stderr, rb"falls short of its target by up to .* of 4 poses")
+        documents = [json.loads((self.folder / f"r{frame}.json").read_text()) for frame in range(4)]
+        self.assertEqual([document["time"] for document in documents], [0, 0.1, 0.2, 0.3])
+        self.assertEqual(len({document["reaches"][0]["distance"] for document in documents}), 4)
+
+    def test_frames_outside_the_clip_are_said(self):
+        result = self.bendy("pose", self.convert(), "--clip", "Walk", "--frames", "0..2@1", "-o", "o#.obj")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(b"1 of 3 frames are outside the clip, which lasts from 0 to 1", result.stderr)
+
+    def test_frames_that_make_no_sense(self):
+        start = ("pose", self.convert(), "--clip", "Walk", "-o", "o#.obj", "--frames")
+        for frames in ("5", "0..5", "5@30", "0..5@", "0..5@0", "0..5@-1", "0..5@nan", "0..5@inf", "-1..5@30", "1.5..3@30",
+                       "0..5@30x", "5..4@30", "0..100000@30", "0..99999999999@30", "..", "@", "a..b@c"):
+            self.assertIn("--frames", self.misused(*start, frames))
+        self.assertIn("--clip", self.misused("pose", "x.bendy", "--frames", "0..5@30", "-o", "o#.obj"))
+        self.assertIn("--time", self.misused(*start, "0..5@30", "--time", "0"))
+        for output in (["-o", "o.obj"], ["-o", "-"], ["-o", "a#/o.obj"], []):
+            said = self.misused("pose", "x.bendy", "--clip", "Walk", "--frames", "0..5@30", *output)
+            self.assertIn("must have # where the frame's number goes", said)
+
+    def test_a_frame_is_never_the_input(self):
+        path = self.convert()
+        (self.folder / "in_2.obj").symlink_to(path)
+        said = self.bendy("pose", path, "--clip", "Walk", "--frames", "0..3@30", "-o", "in_#.obj")
+        self.assertEqual(said.returncode, 1)
+        self.assertFalse((self.folder / "in_0.obj").exists())
+
     def test_levels_of_detail_must_be_shares(self):
         for share in ("-0.1", "1.5", "nan", "inf", "much"):
             self.assertIn("--lod", self.misused("pose", self.convert(), "--lod=" + share))

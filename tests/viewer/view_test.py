@@ -11,6 +11,7 @@ import functools
 import json
 import math
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -241,12 +242,30 @@ class Render(WithFolder):
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertEqual(out.read_bytes()[:len(start)], start)
 
+    def test_a_range_of_frames(self):
+        file = self.folder / "tentacle.bendy"
+        start = ("render", file, "--clip", "Wave", "--size", "40x30")
+        done = bendy(*start, "--frames", "3..5@10", "-o", self.folder / "f_##.png")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(sorted(path.name for path in self.folder.glob("f_*.png")), ["f_03.png", "f_04.png", "f_05.png"])
+        for frame in (3, 4, 5):
+            one = self.folder / "one.png"
+            self.assertEqual(bendy(*start, "--time", str(frame / 10), "-o", one).returncode, 0)
+            self.assertEqual(one.read_bytes(), (self.folder / f"f_{frame:02}.png").read_bytes(), frame)
+        self.assertEqual(self.render("tentacle", "--clip", "Wave", "--size", "40x30", "--frames", "3..5@10")[:2], (80, 60))
+        done = bendy(*start, "--frames", "0..4@10", "-o", self.folder / "r.gif")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        delays = re.findall(rb"\x21\xf9\x04.(..)", (self.folder / "r.gif").read_bytes(), re.DOTALL)
+        self.assertEqual([int.from_bytes(delay, "little") for delay in delays], [10] * 5)
+
     def test_wrong_command_lines(self):
         file = self.folder / "tentacle.bendy"
         for option, text in ((["--size", "0x5"], "--size"), (["--size", "9000x10"], "8192"), (["--size", "5"], "--size"),
                              (["--camera", "1"], "--camera"), (["--camera", "1,2,0"], "--camera"),
                              (["--background", "mauve"], "--background"), (["--lod", "2"], "--lod"),
-                             (["--frames", "0"], "--frames"),
+                             (["--frames", "0"], "--frames"), (["--frames", "1001"], "--frames"), (["--frames", "3x"], "--frames"),
+                             (["--frames", "0..1000@9"], "a # in OUT.png makes a file of each"), (["--frames", "2..1@9"], "--frames"),
+                             (["--clip", "Wave", "--time", "1", "--frames", "0..1@9"], "--time"),
                              (["--frames", "1000", "--size", "1000x1000"], "--frames"), (["-o", "x.bmp"], "--output"), (["--time", "1"], "--clip"),
                              (["--clip", "Wave", "--time", "nan"], "--time")):
             with self.subTest(option=option):
@@ -369,7 +388,7 @@ class Reach(WithFolder):
     def test_sheets_and_animations_reach_in_every_frame(self):
         goal = ["--clip", "Walk", "--reach", "IK_LeftArm=0.3,1.2,0.4"]
         sheet, said = self.draw(*goal, "--frames", "3", "--camera", "20,5")
-        self.assertRegex(said, r"in all 3 pictures|in \d of 3 pictures")
+        self.assertRegex(said, r"in all 3 poses|in \d of 3 poses")
         self.assertEqual(said.count("\n"), 1)
         width = 160
         cells = [{(x, y) for x, y in self.red_pixels(sheet) if (x // width, y // 120) == cell}
@@ -383,7 +402,7 @@ class Reach(WithFolder):
             self.assertAlmostEqual(y, middles[0][1], delta=4)
         for ending in (".gif", ".webp"):
             _, said = self.draw(*goal, "--frames", "2", out="reach" + ending)
-            self.assertIn("2 pictures", said)
+            self.assertIn("2 poses", said)
 
     def test_wrong_requests(self):
         file = self.folder / "mannequin.bendy"

@@ -261,12 +261,12 @@ void ReachTally::print(const std::filesystem::path& file, const Model& model,
         if (count.short_ones == 0) {
             const bool is_aim = count.worst->status == ReachStatus::aimed;
             std::cerr << "bendy: " << chain << (is_aim ? " aims at its target" : " reaches its target");
-            if (count.poses > 1) std::cerr << " in all " << count.poses << " pictures";
+            if (count.poses > 1) std::cerr << " in all " << count.poses << " poses";
             std::cerr << (is_aim ? ", " : ", to ") << gap << '\n';
         } else {
             text << chain << " falls short of its target by " << (count.poses > 1 ? "up to " : "") << gap;
             if (count.poses > 1)
-                text << " (at " << count.time << " s), in " << count.short_ones << " of " << count.poses << " pictures";
+                text << " (at " << count.time << " s), in " << count.short_ones << " of " << count.poses << " poses";
             if (count.worst->status == ReachStatus::out_of_reach) text << ": it is farther away than the chain is long";
             warn(file, text.str());
         }

@@ -3,6 +3,7 @@
 
 #ifdef BENDY_HAS_VIEWER
 
+#include "commands/frames.h"
 #include "commands/model_options.h"
 #include "files/input.h"
 #include "files/output.h"
@@ -18,11 +19,19 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 namespace bendy::tools {
 namespace {
+
+/// The pictures that --frames asks for.
+struct Frames {
+    unsigned count = 0;               ///< spread over the clip; 0: not given
+    std::optional<FrameRange> range;  ///< overrides the count
+    [[nodiscard]] unsigned number() const { return range ? range->count() : count; }
+};
 
 struct RenderArguments {
     std::filesystem::path file;
@@ -35,8 +44,9 @@ struct RenderArguments {
     std::string size;
     std::string camera;
     std::string background;
-    std::string format;   // empty: chosen by the output's name
-    unsigned frames = 0;  // 0: not given
+    std::string format;  // empty: chosen by the output's name
+    std::string frames;  // a number, or A..B@RATE; empty: not given
+    Frames pictures;
     bool verbose = false;
     ReachRequest reach;
     viewer::RenderOptions render;
@@ -94,24 +104,55 @@ void parse_background(const std::string& text, glm::vec4& background) {
     background = {linear(colour >> 16u), linear(colour >> 8u & 255u), linear(colour & 255u), 1.0f};
 }
 
-/// The times of the frames in the clip. A repeating clip does not show its end, which equals its start.
-std::vector<float> frame_times(const Clip& clip, unsigned frames, bool repeats) {
+constexpr unsigned kMostInOneFile = 1000;  // of a sheet or an animation
+
+Frames parse_frames(const std::string& text) {
+    Frames frames;
+    if (text.empty()) return frames;
+    if (is_frame_range(text)) {
+        frames.range = read_frame_range(text);
+        return frames;
+    }
+    const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), frames.count);
+    if (problem != std::errc() || stop != text.data() + text.size() || frames.count < 1 ||
+        frames.count > kMostInOneFile)
+        throw CLI::ValidationError("--frames",
+                                   "must be a number from 1 to " + std::to_string(kMostInOneFile) + ", or A..B@RATE");
+    return frames;
+}
+
+/// The times of the frames on the clip's time line. Without a range, a repeating clip does not show its end, which
+/// equals its start.
+std::vector<float> frame_times(const Clip& clip, const Frames& frames, bool repeats) {
     std::vector<float> times;
-    const float steps = static_cast<float>(repeats ? frames : std::max(1u, frames - 1));
-    for (unsigned k = 0; k < frames; ++k)
+    for (unsigned k = 0; frames.range && k < frames.range->count(); ++k)
+        times.push_back(frames.range->time(frames.range->first + k));
+    if (frames.range) return times;
+    const float steps = static_cast<float>(repeats ? frames.count : std::max(1u, frames.count - 1));
+    for (unsigned k = 0; k < frames.count; ++k)
         times.push_back(clip.start + (clip.end - clip.start) * static_cast<float>(k) / steps);
     return times;
+}
+
+/// Returns true if every frame is a file of its own.
+bool is_sequence(const RenderArguments& arguments, const std::string& format) {
+    return format == "png" && arguments.pictures.range && is_numbered(arguments.output);
 }
 
 std::uint32_t sheet_columns(unsigned frames) {
     return static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(frames))));
 }
 
-/// A sheet is a single picture, assembled in memory.
-void check_sheet(const RenderArguments& arguments) {
+/// A sheet is a single picture, and an animation a single file, assembled in memory.
+void check_frames(const RenderArguments& arguments, const std::string& format) {
+    const unsigned number = arguments.pictures.number();
+    if (number > kMostInOneFile) {
+        throw CLI::ValidationError("--frames", "at most " + std::to_string(kMostInOneFile) +
+                                                   " fit in one file; a # in OUT.png makes a file of each");
+    }
     constexpr std::uint64_t kMostSheetPixels = std::uint64_t{viewer::kMostPixels} * viewer::kMostPixels;
-    const std::uint64_t columns = sheet_columns(arguments.frames);
-    if (columns * columns * arguments.render.width * arguments.render.height > kMostSheetPixels)
+    const std::uint64_t columns = sheet_columns(number);
+    if (format == "png" && columns * columns * arguments.render.width * arguments.render.height > kMostSheetPixels)
         throw CLI::ValidationError("--frames", "so many pictures of this --size are too large for one");
 }
 
@@ -153,25 +194,39 @@ std::vector<std::byte> draw_sheet(ReachingMaker& maker, const RenderArguments& a
     ProgressBar bar("drawing");
     std::vector<viewer::Picture> pictures;
     const Clip& clip = *arguments.render.clip;
-    for (const float time : frame_times(clip, arguments.frames, clip.loop)) {
+    const unsigned number = arguments.pictures.number();
+    for (const float time : frame_times(clip, arguments.pictures, clip.loop)) {
         pictures.push_back(maker.draw(time));
-        bar.show(pictures.size(), arguments.frames);
+        bar.show(pictures.size(), number);
     }
-    return viewer::encode_png(viewer::contact_sheet(pictures, sheet_columns(arguments.frames), maker.draw_nothing()));
+    return viewer::encode_png(viewer::contact_sheet(pictures, sheet_columns(number), maker.draw_nothing()));
 }
 
 std::vector<std::byte> draw_animation(ReachingMaker& maker, const RenderArguments& arguments, bool is_gif) {
     const viewer::RenderOptions& render = arguments.render;
     const auto file =
         is_gif ? viewer::make_gif(render.width, render.height) : viewer::make_webp(render.width, render.height);
-    const double length = static_cast<double>(render.clip->end) - static_cast<double>(render.clip->start);
+    const unsigned number = arguments.pictures.number();
+    const double length = arguments.pictures.range
+                              ? number / arguments.pictures.range->rate
+                              : static_cast<double>(render.clip->end) - static_cast<double>(render.clip->start);
     ProgressBar bar("drawing");
     unsigned done = 0;
-    for (const float time : frame_times(*render.clip, arguments.frames, true)) {
-        file->add(maker.draw(time), length * done / arguments.frames);
-        bar.show(++done, arguments.frames);
+    for (const float time : frame_times(*render.clip, arguments.pictures, true)) {
+        file->add(maker.draw(time), length * done / number);
+        bar.show(++done, number);
     }
     return file->finish(length);
+}
+
+void draw_sequence(ReachingMaker& maker, const RenderArguments& arguments, const Outputs& outputs) {
+    const FrameRange& range = *arguments.pictures.range;
+    ProgressBar bar("drawing");
+    for (std::uint32_t k = 0; k < range.count(); ++k) {
+        const std::uint32_t frame = range.first + k;
+        outputs.write(frame_output(arguments.output, frame), viewer::encode_png(maker.draw(range.time(frame))));
+        bar.show(k + 1, range.count());
+    }
 }
 
 /// The number of frames of an animation if it was not given: 25 per second.
@@ -182,28 +237,45 @@ unsigned default_frames(const Clip& clip) {
     return static_cast<unsigned>(std::clamp(std::round(kRate * length), 1.0, kMost));
 }
 
-std::vector<std::byte> draw_all(RenderArguments& arguments, const Model& model, const std::string& format) {
+void draw_all(RenderArguments& arguments, const Model& model, const std::string& format, const Outputs& outputs) {
     const bool is_animation = format != "png";
     viewer::RenderOptions& render = arguments.render;
+    Frames& frames = arguments.pictures;
     if (arguments.has_clip) render.clip = &find_clip(arguments.clip, arguments.file, model);
-    if (model.clips().empty() && (is_animation || arguments.frames != 0)) {
+    if (model.clips().empty() && (is_animation || frames.number() != 0)) {
         fail(arguments.file, std::string("there is no clip for ") + (is_animation ? "an animation" : "--frames") +
                                  "; OUT.png without --frames shows the rest pose");
     }
-    if (render.clip == nullptr && (is_animation || arguments.frames > 1)) {
+    if (render.clip == nullptr && (is_animation || frames.range || frames.count > 1)) {
         render.clip = model.clips().data();
     }
-    if (is_animation && arguments.frames == 0) arguments.frames = default_frames(*render.clip);
+    if (is_animation && frames.number() == 0) frames.count = default_frames(*render.clip);
+    if (frames.range) warn_outside(arguments.file, *render.clip, *frames.range);
     warn_without_levels(arguments.file, model, render.lod);
     ReachingMaker maker(arguments, model);
     if (arguments.verbose) std::cerr << "bendy: drawing with " << printable(maker.context()) << '\n';
     const float start = render.clip == nullptr ? 0.0f : render.clip->start;
-    std::vector<std::byte> bytes = is_animation ? draw_animation(maker, arguments, format == "gif")
-                                   : arguments.frames > 1
-                                       ? draw_sheet(maker, arguments)
-                                       : viewer::encode_png(maker.draw(arguments.has_time ? arguments.time : start));
+    if (is_sequence(arguments, format)) {
+        draw_sequence(maker, arguments, outputs);
+    } else if (is_animation) {
+        outputs.write(arguments.output, draw_animation(maker, arguments, format == "gif"));
+    } else if (frames.range || frames.count > 1) {
+        outputs.write(arguments.output, draw_sheet(maker, arguments));
+    } else {
+        outputs.write(arguments.output, viewer::encode_png(maker.draw(arguments.has_time ? arguments.time : start)));
+    }
     maker.print_tally(arguments.file, model);
-    return bytes;
+}
+
+/// Notes the files that the command writes.
+void note_outputs(const RenderArguments& arguments, const std::string& format, Outputs& outputs) {
+    if (!is_sequence(arguments, format)) {
+        outputs.writes(arguments.output, NamedBy::user, Content::binary);
+        return;
+    }
+    const FrameRange& range = *arguments.pictures.range;
+    for (std::uint32_t k = 0; k < range.count(); ++k)
+        outputs.writes(frame_output(arguments.output, range.first + k), NamedBy::user, Content::binary);
 }
 
 /// The folders of the images that the file links to, which are drawn.
@@ -218,17 +290,19 @@ void note_inputs(const RenderArguments& arguments, const Model& model, Outputs& 
 void run(RenderArguments arguments) {
     Outputs outputs;
     outputs.reads(arguments.file);
-    outputs.writes(arguments.output, NamedBy::user, Content::binary);
     check_suffix({"render", "--output", {".png", ".gif", ".webp"}, false}, arguments.file, arguments.output,
                  arguments.format);
     const std::string format = format_of(arguments.format, arguments.output, "png");
-    if (arguments.frames > 1 && arguments.has_time) throw CLI::ValidationError("--time", "does not go with --frames");
-    if (arguments.frames > 1 || format != "png") {
+    arguments.pictures = parse_frames(arguments.frames);
+    note_outputs(arguments, format, outputs);
+    const bool has_several = arguments.pictures.range || arguments.pictures.count > 1;
+    if (has_several && arguments.has_time) throw CLI::ValidationError("--time", "does not go with --frames");
+    if ((has_several || format != "png") && !is_sequence(arguments, format)) {
         arguments.render.width = 320;
         arguments.render.height = 240;
     }
     if (!arguments.size.empty()) parse_size(arguments.size, arguments.render);
-    if (format == "png") check_sheet(arguments);
+    if (!is_sequence(arguments, format)) check_frames(arguments, format);
     if (!arguments.camera.empty()) parse_camera(arguments.camera, arguments.render.camera);
     if (!arguments.background.empty()) parse_background(arguments.background, arguments.render.draw.background);
     arguments.render.draw.targets = arguments.render.draw.constraints;
@@ -238,8 +312,7 @@ void run(RenderArguments arguments) {
     arguments.render.folders = folders_of(arguments.file, arguments.root);
     note_inputs(arguments, model, outputs);
     try {
-        const std::vector<std::byte> bytes = draw_all(arguments, model, format);
-        outputs.write(arguments.output, bytes);
+        draw_all(arguments, model, format, outputs);
     } catch (const viewer::ViewerError& problem) {
         fail(arguments.file, printable(problem.what()));
     }
@@ -260,11 +333,10 @@ void add_render(CLI::App& program) {
     CLI::Option* clip = add_clip(*command, arguments->clip);
     CLI::Option* time = command->add_option("--time", arguments->time, "seconds on the clip's time line")->needs(clip);
     add_reach(*command, arguments->reach);
-    command
-        ->add_option(
-            "--frames", arguments->frames,
-            "number of pictures, spread over the clip: as a sheet in OUT.png, or as the frames of an animation")
-        ->check(CLI::Range(1, 1000));
+    command->add_option("--frames", arguments->frames,
+                        "N pictures, 1 to 1000, spread over the clip; or A..B@RATE: frames A to B, RATE per second. "
+                        "They are a sheet in OUT.png, the frames of an animation in OUT.gif and OUT.webp, and files of "
+                        "their own if a # in OUT.png is the place of A to B, as in run_####.png");
     command->add_option("--size", arguments->size, "WIDTHxHEIGHT of a picture, pixels; 1024x768, of several 320x240");
     command->add_option("--camera", arguments->camera,
                         "YAW,PITCH[,DISTANCE]: degrees round the character, 0,0 its front; and a factor; 34,11 fitted");
@@ -279,6 +351,7 @@ void add_render(CLI::App& program) {
     command->footer(
         "A file without a surface is drawn as its skeleton. Targets of --reach are drawn, each with a line from the "
         "tip that should reach it.\nExample: bendy render fox.bendy --clip Run --time 0.35 --bones -o run.png\n        "
+        " bendy render fox.bendy --clip Run --frames 0..59@60 -o run_####.png\n        "
         " bendy render robot.bendy --reach LeftArm=0.3,1.2,0.4 -o reach.png");
     command->callback([arguments, clip, time] {
         arguments->has_clip = clip->count() != 0;
