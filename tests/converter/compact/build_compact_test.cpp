@@ -186,5 +186,18 @@ TEST(BuildCompact, BytesDoNotDependOnThreads) {
     }
 }
 
+TEST(BuildCompact, AClipThatOnlyMorphsLeavesTheBoundToTheGeometry) {
+    Scene scene = test::random_scene(11);
+    std::erase_if(scene.clips, [](const Clip& clip) { return clip.tracks.empty(); });
+    for (Clip& clip : scene.clips)
+        std::erase_if(clip.tracks, [](const Track& track) { return track.path != TrackPath::weights; });
+    ASSERT_FALSE(scene.clips.empty());
+    Report report;
+    build_compact(scene, {.bound = {1e-3, false}}, "test", report);
+    ASSERT_TRUE(report.compact);
+    EXPECT_GT(report.compact->measured_error, 0.35e-3);  // the share that moving joints leave to the geometry
+    EXPECT_LE(report.compact->measured_error, 1e-3);
+}
+
 }  // namespace
 }  // namespace bendy::converter::build_compact_test

@@ -33,6 +33,17 @@ namespace {
 constexpr double kGeometryShare = 0.35;
 constexpr double kClipShare = 0.9;
 
+/// The geometry's share of the bound: nearly all of it if no clip moves a joint. Weights of morph targets stay exact.
+double geometry_share_of(const Scene& scene) {
+    constexpr double kStillShare = 0.9;  // the geometry is measured at the weights of some keys only
+    if (scene.clips.empty()) return 1.0;
+    const bool moves = std::any_of(scene.clips.begin(), scene.clips.end(), [](const Clip& clip) {
+        return std::any_of(clip.tracks.begin(), clip.tracks.end(),
+                           [](const Track& track) { return track.path != TrackPath::weights; });
+    });
+    return moves ? kGeometryShare : kStillShare;
+}
+
 /// Measures the clips with measure_clips on the file's bytes; infinite if they cannot be read.
 std::vector<MeasuredError> measure(const Scene& exact, const CompactGeometry& geometry, Bytes bytes,
                                    std::span<const std::uint32_t> clips, MeasureOptions options) {
@@ -103,7 +114,7 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
 
     Report unheard;  // discarded: the compact file gives the same warnings
     Scene geometry_scene = exact;
-    const double geometry_share = exact.clips.empty() ? 1.0 : kGeometryShare;
+    const double geometry_share = geometry_share_of(exact);
     // Rough estimate: the geometry takes as long as five seconds of clips.
     constexpr double kGeometryWork = 5.0;
     double seconds = 0.0;

@@ -1,5 +1,6 @@
 #include "optimise/compact/compact_geometry.h"
 
+#include "optimise/compact/compact_targets.h"
 #include "optimise/compact/quantise.h"
 #include "scene/evaluate.h"
 #include "scene/frame_shapes.h"
@@ -79,25 +80,6 @@ double stretch_of(const SkinMatrices& matrices) {
         for (const glm::dmat4& matrix : palette) largest = std::max(largest, largest_stretch(matrix));
     }
     return largest > 1e-30 && std::isfinite(largest) ? largest : 1.0;
-}
-
-/// The largest sum of morph target weights at rest or in a clip, at least 1.
-double morph_weight_of(const Scene& scene, std::uint32_t number) {
-    const Mesh& mesh = scene.meshes[number];
-    double rest = 0.0;
-    for (const MorphTarget& target : mesh.targets) rest += std::abs(target.rest_weight);
-    double largest = std::max(1.0, rest);
-    for (const Clip& clip : scene.clips) {
-        for (const Track& track : clip.tracks) {
-            if (track.path != TrackPath::weights || track.target != number || track.components == 0) continue;
-            for (std::size_t at = 0; at + track.components <= track.values.size(); at += track.components) {
-                double sum = 0.0;
-                for (std::uint32_t c = 0; c < track.components; ++c) sum += std::abs(track.values[at + c]);
-                largest = std::max(largest, sum);
-            }
-        }
-    }
-    return largest;
 }
 
 // --- weights
@@ -305,12 +287,13 @@ std::optional<StoredStream> compact_coords(const Stream& stream, double texels) 
 struct Budget {
     double model = 0.0;    ///< metres, for positions, weights and targets together
     double stretch = 1.0;  ///< from the mesh's space to model space
-    double targets = 1.0;  ///< sum of the targets' weights
     std::span<const glm::dmat4> rests;
     const Poses& poses;
 };
 
-void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const SkinMatrices& matrices, double texels) {
+void compact_mesh(Scene& scene, std::uint32_t number, CompactMesh& compact, const Budget& budget,
+                  const SkinMatrices& matrices, double texels) {
+    Mesh& mesh = scene.meshes[number];
     const bool is_framed = has_frames(mesh) || mesh.grid;  // already minimal, and exact
     double left = budget.model;
     if (mesh.influences != 0) {
@@ -321,7 +304,7 @@ void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const 
     const bool has_targets = std::any_of(mesh.targets.begin(), mesh.targets.end(),
                                          [](const MorphTarget& t) { return !t.positions.empty(); });
     const double positions = left * (has_targets ? 0.5 : 1.0) / budget.stretch;
-    const double shifts = left * 0.5 / budget.stretch / budget.targets;
+    const double shifts = left * 0.5 / budget.stretch;
     if (!mesh.positions.empty() && !is_framed)
         compact.positions = quantise_boxed({&mesh.positions[0].x, mesh.positions.size() * 3}, 3, positions, true);
     if (!mesh.normals.empty() && !is_framed) compact.normals = quantise_normals(mesh.normals, kDirectionBits);
@@ -336,13 +319,14 @@ void compact_mesh(Mesh& mesh, CompactMesh& compact, const Budget& budget, const 
         take_back(compact.colours.emplace_back(quantise_colours(stream.values, stream.components)), stream.values);
     }
     constexpr double kDirectionShift = 1.0 / 256.0;  // for the displacement of a unit normal
-    for (MorphTarget& target : mesh.targets) {
-        CompactTarget& stored = compact.targets.emplace_back();
+    compact.targets.resize(mesh.targets.size());
+    compact_targets(scene, number, compact, shifts);
+    for (std::size_t t = 0; t < mesh.targets.size(); ++t) {
+        MorphTarget& target = mesh.targets[t];
+        CompactTarget& stored = compact.targets[t];
         if (target.is_frame) continue;
-        stored.positions = quantise_shifts(target.positions, shifts);
         stored.normals = quantise_shifts(target.normals, kDirectionShift);
         stored.tangents = quantise_shifts(target.tangents, kDirectionShift);
-        take_back(stored.positions, target.positions);
         take_back(stored.normals, target.normals);
         take_back(stored.tangents, target.tangents);
     }
@@ -376,10 +360,10 @@ CompactGeometry compact_geometry(Scene& scene, double most_error, const std::fun
         Mesh& mesh = scene.meshes[number];
         CompactMesh& compact = geometry.meshes.emplace_back();
         const SkinMatrices matrices = skin_matrices(mesh, poses);
-        const Budget budget{most_error, stretch_of(matrices), morph_weight_of(scene, number), rests, poses};
+        const Budget budget{most_error, stretch_of(matrices), rests, poses};
         compact.vertex_of.resize(mesh.positions.size());
         std::iota(compact.vertex_of.begin(), compact.vertex_of.end(), 0u);
-        compact_mesh(mesh, compact, budget, matrices, texels);
+        compact_mesh(scene, number, compact, budget, matrices, texels);
         if (!mesh.positions.empty()) {
             if (mesh.collapse.empty()) merge_vertices(mesh, compact);
             order_for_codecs(mesh, compact, levels_of(scene, number));
