@@ -54,12 +54,12 @@ std::optional<Limb> find_limb(const Model& model, const char* name) {
     if (limb.chain == nullptr) return std::nullopt;
     const auto& offset = limb.chain->record.tip_offset;
     const bool has_tip = offset[0] != 0.0f || offset[1] != 0.0f || offset[2] != 0.0f;
-    for (std::uint32_t joint = limb.chain->effector; joint != kNone; joint = model.joints()[joint].parent) {
-        bool is_passive = joint == limb.chain->effector && !has_tip;
+    for (std::uint32_t joint = limb.chain->record.effector; joint != kNone; joint = model.joints()[joint].parent) {
+        bool is_passive = joint == limb.chain->record.effector && !has_tip;
         for (const ChainWeightView& weight : model.chain_weights(*limb.chain))
             is_passive = is_passive || (weight.joint == joint && weight.weight == 0.0f);
         if (!is_passive) limb.joints.push_back(joint);
-        if (joint == limb.chain->start) break;
+        if (joint == limb.chain->record.start) break;
     }
     if (limb.joints.size() < 2) return std::nullopt;
     std::reverse(limb.joints.begin(), limb.joints.end());
@@ -69,8 +69,8 @@ std::optional<Limb> find_limb(const Model& model, const char* name) {
 
 bool is_limited(const Model& model, std::uint32_t joint) {
     const Constraint* constraint = model.constraint(joint);
-    if (constraint == nullptr || constraint->model == ConstraintModel::free) return false;
-    if (constraint->model == ConstraintModel::hinge || constraint->model == ConstraintModel::locked) return true;
+    if (constraint == nullptr || constraint->model() == ConstraintModel::free) return false;
+    if (constraint->model() == ConstraintModel::hinge || constraint->model() == ConstraintModel::locked) return true;
     // A swing-twist constraint that allows every direction and every twist does not limit the joint.
     const LimitShape& shape = constraint->shape;
     return shape.swing_low[0] < 1.0 || shape.swing_high[0] < 1.0 || shape.swing_low[1] < 1.0 ||
@@ -79,11 +79,11 @@ bool is_limited(const Model& model, std::uint32_t joint) {
 
 /// Checks the joints from the chain's start to the one before its effector, or to the effector if `whole`.
 bool is_column_limited(const Model& model, const Chain& chain, bool whole) {
-    std::uint32_t joint = chain.effector;
-    if (!whole && joint != chain.start) joint = model.joints()[joint].parent;
+    std::uint32_t joint = chain.record.effector;
+    if (!whole && joint != chain.record.start) joint = model.joints()[joint].parent;
     for (; joint != kNone; joint = model.joints()[joint].parent) {
         if (!is_limited(model, joint)) return false;
-        if (joint == chain.start) return true;
+        if (joint == chain.record.start) return true;
     }
     return false;
 }
@@ -108,8 +108,8 @@ struct Bend {
 Bend bend_of(Pose& pose, const Limb& limb) {
     const auto at = [&](std::uint32_t joint) { return glm::dmat4(pose.model_space()[joint]); };
     const auto& offset = limb.chain->record.tip_offset;
-    const glm::dvec3 tip(at(limb.chain->effector) * glm::dvec4(offset[0], offset[1], offset[2], 1.0));
-    const glm::dvec3 start(at(limb.chain->start)[3]);
+    const glm::dvec3 tip(at(limb.chain->record.effector) * glm::dvec4(offset[0], offset[1], offset[2], 1.0));
+    const glm::dvec3 start(at(limb.chain->record.start)[3]);
     const glm::dvec3 middle(at(limb.middle)[3]);
     const glm::dvec3 upper = glm::normalize(middle - start);
     const glm::dvec3 lower = glm::normalize(tip - middle);
@@ -131,7 +131,7 @@ glm::quat random_rotation(const Constraint& constraint, const glm::quat& rest, s
     for (int attempt = 0; attempt < 1000; ++attempt) {
         const double t = 0.5 * uniform(twist.middle - twist.half, twist.middle + twist.half);
         glm::dquat R(std::cos(t), std::sin(t), 0.0, 0.0);
-        if (constraint.model != ConstraintModel::hinge) {
+        if (constraint.model() != ConstraintModel::hinge) {
             const LimitShape& s = constraint.shape;
             const double y = uniform(-std::min(s.swing_low[0], 1.0), std::min(s.swing_high[0], 1.0));
             const double z = uniform(-std::min(s.swing_low[1], 1.0), std::min(s.swing_high[1], 1.0));
@@ -184,7 +184,7 @@ private:
         count("Spine", spine != nullptr && is_column_limited(model_, *spine, false));
         // Without a neck there is no chain; the head has the constraint.
         count("Neck", head != nullptr ? is_column_limited(model_, *head, true)
-                                      : spine != nullptr && is_limited(model_, spine->effector));
+                                      : spine != nullptr && is_limited(model_, spine->record.effector));
     }
 
     void play_clips() {
@@ -237,9 +237,10 @@ private:
         const auto place = [&](std::uint32_t joint) { return glm::dvec3(pose_.model_space()[joint][3]); };
         const auto& offset = limb.chain->record.tip_offset;
         const auto tip = [&] {
-            return glm::vec3(pose_.model_space()[limb.chain->effector] * glm::vec4(offset[0], offset[1], offset[2], 1));
+            return glm::vec3(pose_.model_space()[limb.chain->record.effector] *
+                             glm::vec4(offset[0], offset[1], offset[2], 1));
         };
-        const double length = glm::distance(place(limb.chain->start), place(limb.middle)) +
+        const double length = glm::distance(place(limb.chain->record.start), place(limb.middle)) +
                               glm::distance(place(limb.middle), glm::dvec3(tip()));
         for (std::size_t target = 0; target < targets_; ++target) {
             pose_.set_rest();

@@ -41,19 +41,19 @@ constexpr std::array<Row, 6> kRows{{{Solver::any, "any"},
 
 glm::vec3 tip_of(const Chain& chain, Pose& pose) {
     const auto& offset = chain.record.tip_offset;
-    return {pose.model_space()[chain.effector] * glm::vec4(offset[0], offset[1], offset[2], 1.0f)};
+    return {pose.model_space()[chain.record.effector] * glm::vec4(offset[0], offset[1], offset[2], 1.0f)};
 }
 
 /// Returns the joints that the chain turns, from the effector up.
 std::vector<std::uint32_t> joints_of(const Model& model, const Chain& chain) {
     std::vector<std::uint32_t> joints;
-    for (std::uint32_t joint = chain.effector;; joint = model.joints()[joint].parent) {
+    for (std::uint32_t joint = chain.record.effector;; joint = model.joints()[joint].parent) {
         const auto weights = model.chain_weights(chain);
         const bool is_fixed = std::any_of(weights.begin(), weights.end(), [&](const ChainWeightView& chain_weight) {
             return chain_weight.joint == joint && chain_weight.weight == 0.0f;
         });
         if (!is_fixed) joints.push_back(joint);
-        if (joint == chain.start) break;
+        if (joint == chain.record.start) break;
     }
     return joints;
 }
@@ -85,7 +85,7 @@ struct Tally {
 void run(const std::string& file, const Model& model, const Chain& chain, std::size_t targets, bool is_free,
          bool only_default) {
     Pose pose(model);
-    std::mt19937 random(chain.number + 1);
+    std::mt19937 random(static_cast<std::uint32_t>(&chain - model.chains().data()) + 1);
     std::array<Tally, kRows.size()> tallies;
     for (std::size_t n = 0; n < targets; ++n) {
         pose_at_random(model, chain, is_free, pose, random);
@@ -148,7 +148,7 @@ void run_mirrored(const std::string& file, const Model& model, const Chain& left
     const std::vector<std::uint32_t> left_joints = joints_of(model, left);
     const std::vector<std::uint32_t> right_joints = joints_of(model, *right);
     for (const Row& row : kRows) {
-        std::mt19937 random(left.number + 1);
+        std::mt19937 random(static_cast<std::uint32_t>(&left - model.chains().data()) + 1);
         std::uniform_real_distribution<float> aside(-0.2f, 0.2f);
         std::size_t unlike = 0;
         std::size_t unlike_end = 0;
@@ -214,7 +214,7 @@ int main(int argc, char** argv) {
                 return 1;
             }
             for (const Chain& chain : model->chains()) {
-                if (chain.solver == Solver::aim) continue;
+                if (chain.solver() == Solver::aim) continue;
                 if (is_mirrored) {
                     run_mirrored(argument, *model, chain, targets, is_free);
                 } else {

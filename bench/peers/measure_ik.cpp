@@ -138,7 +138,8 @@ struct Limb {
 /// The axis about which a limb opens at rest; x if it is straight.
 glm::vec3 find_axis(Pose& rest, const Chain& chain, std::uint32_t middle) {
     const glm::vec3 place = place_of(rest, middle);
-    const glm::vec3 axis = glm::cross(place_of(rest, chain.start) - place, place_of(rest, chain.effector) - place);
+    const glm::vec3 axis =
+        glm::cross(place_of(rest, chain.record.start) - place, place_of(rest, chain.record.effector) - place);
     const glm::vec3 local = glm::inverse(glm::mat3(rest.model_space()[middle])) * axis;
     const float length = glm::length(local);
     return length > 0.0f ? local / length : glm::vec3(1.0f, 0.0f, 0.0f);
@@ -149,18 +150,19 @@ std::vector<Limb> find_limbs(const Character& character) {
     Pose rest(character.model);
     std::vector<Limb> limbs;
     for (const Chain& chain : character.model.chains()) {
-        if (chain.links != kLinks || (chain.solver != Solver::two_bone && chain.solver != Solver::any)) continue;
+        if (chain.links != kLinks || (chain.solver() != Solver::two_bone && chain.solver() != Solver::any)) continue;
         const bool is_known = std::any_of(limbs.begin(), limbs.end(), [&](const Limb& limb) {
-            return limb.chain->start == chain.start && limb.chain->effector == chain.effector;
+            return limb.chain->record.start == chain.record.start &&
+                   limb.chain->record.effector == chain.record.effector;
         });
         if (is_known) continue;  // proposed by --auto-rig for a character that has one already
         Limb limb;
         limb.chain = &chain;
-        limb.middle = character.model.joints()[chain.effector].parent;
+        limb.middle = character.model.joints()[chain.record.effector].parent;
         const auto ozz = [&](std::uint32_t joint) { return static_cast<int>(character.ozz.theirs_of[joint]); };
-        limb.ozz_start = ozz(chain.start);
+        limb.ozz_start = ozz(chain.record.start);
         limb.ozz_middle = ozz(limb.middle);
-        limb.ozz_end = ozz(chain.effector);
+        limb.ozz_end = ozz(chain.record.effector);
         limb.middle_axis = find_axis(rest, chain, limb.middle);
         limbs.push_back(limb);
     }
@@ -206,10 +208,10 @@ private:
     /// All before any limb moves.
     void find_targets() {
         for (std::size_t k = 0; k < limbs_.size(); ++k) {
-            const glm::vec3 start = place_of(pose_, limbs_[k].chain->start);
+            const glm::vec3 start = place_of(pose_, limbs_[k].chain->record.start);
             const glm::vec3 middle = place_of(pose_, limbs_[k].middle);
             ReachRequest& request = requests_[k];
-            request.target = place_of(pose_, limbs_[k].chain->effector) + kBeside;
+            request.target = place_of(pose_, limbs_[k].chain->record.effector) + kBeside;
             request.options.pole = middle + (middle - 0.5f * (start + request.target.position));
         }
     }

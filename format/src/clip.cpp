@@ -104,7 +104,7 @@ bool holds_all_keys(const ClipView& clip) {
     if (clip.packed && !holds_frames(clip, *clip.packed)) return false;
     constexpr double kFrames = 1e-3;  // of a frame: `end` is a rounded float
     const double most = (double{clip.end} - clip.start) * clip.frame_rate + kFrames;
-    const auto fits = [&](const PlayView& play) { return play.frames - 1.0 + (play.closed ? 1.0 : 0.0) <= most; };
+    const auto fits = [&](const PlayRecord& play) { return play.frames - 1.0 + play.closed <= most; };
     if (!std::all_of(clip.plays.begin(), clip.plays.end(), fits)) return false;
     const auto holds = [&](const CurveView& curve) {
         return curve.times.front() >= clip.start && curve.times.back() <= clip.end;
@@ -132,9 +132,9 @@ void check_repeated_plays(const ClipView& clip, std::uint64_t offset, Faults& fa
     }
 }
 
-std::vector<PlayView> read_plays(const ChunkTree& tree, const ClipView& clip, std::span<const MeshView> meshes,
-                                 Faults& faults) {
-    std::vector<PlayView> plays;
+std::vector<PlayRecord> read_plays(const ChunkTree& tree, const ClipView& clip, std::span<const MeshView> meshes,
+                                   Faults& faults) {
+    std::vector<PlayRecord> plays;
     const std::uint32_t number = tree.find(clip.chunk, FourCC("PLAY"));
     if (number == kNone || tree[number].is_container() || !clip.has_info) return plays;
     const std::uint64_t offset = tree[number].offset;
@@ -165,7 +165,7 @@ std::vector<PlayView> read_plays(const ChunkTree& tree, const ClipView& clip, st
             faults.add({ErrorCode::kFrameRange, offset, index});
             continue;
         }
-        plays.push_back({record.mesh, record.first, record.frames, record.closed != 0});
+        plays.push_back(record);
     }
     return plays;
 }

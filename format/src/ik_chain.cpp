@@ -27,7 +27,8 @@ std::vector<std::uint32_t> find_ends(const SkeletonView& skeleton) {
 }
 
 /// Reads KINF into the view; returns false if it is missing or refers to something invalid. `ends`: see find_ends.
-bool read_record_of(const ChunkTree& tree, ChainView& chain, std::span<const std::uint32_t> ends, Faults& faults) {
+bool read_record_of(const ChunkTree& tree, ChainView& chain, std::span<const std::uint32_t> ends,
+                    std::span<const std::uint32_t> depths, Faults& faults) {
     const auto record = read_child_record<ChainRecord>(tree, chain.chunk, FourCC("KINF"), faults);
     if (!record) return false;
     chain.record = *record;
@@ -47,8 +48,12 @@ bool read_record_of(const ChunkTree& tree, ChainView& chain, std::span<const std
     if (record->pole != kNone) check_joint(record->pole);
     if (!in_range) return false;
     const bool is_above = record->start <= record->effector && record->effector < ends[record->start];
-    if (!is_above) faults.add({ErrorCode::kChainPath, offset, record->start, record->effector});
-    return is_above;
+    if (!is_above) {
+        faults.add({ErrorCode::kChainPath, offset, record->start, record->effector});
+        return false;
+    }
+    chain.links = depths[record->effector] - depths[record->start] + 1;
+    return true;
 }
 
 /// Checks the joints' weights against the chains.
@@ -84,6 +89,7 @@ void check_chain_weights(const ChunkTree& tree, const SkeletonView& skeleton, st
 std::vector<ChainView> read_chains(const ChunkTree& tree, std::uint32_t object, const SkeletonView& skeleton,
                                    Faults& faults) {
     const std::vector<std::uint32_t> ends = find_ends(skeleton);
+    const std::vector<std::uint32_t> depths = depths_of(skeleton.joints);
     std::vector<ChainView> chains;
     bool are_sound = true;  // otherwise weights cannot be checked against them
     for (const std::uint32_t child : tree.children(object)) {
@@ -92,7 +98,7 @@ std::vector<ChainView> read_chains(const ChunkTree& tree, std::uint32_t object, 
         chain.chunk = child;
         chain.name = read_text(tree, child, FourCC("NAME"), faults);
         chain.extras = read_text(tree, child, FourCC("EXTR"), faults);
-        are_sound = read_record_of(tree, chain, ends, faults) && are_sound;
+        are_sound = read_record_of(tree, chain, ends, depths, faults) && are_sound;
     }
     if (are_sound) check_chain_weights(tree, skeleton, chains, ends, faults);
     return chains;

@@ -30,7 +30,7 @@ void read_chain_weights(const ChunkTree& tree, std::uint32_t pivot, std::uint32_
         if (!(tree[child].id == FourCC("PULL")) || tree[child].is_container()) continue;
         const Result<ChainWeightRecord> record = read_record<ChainWeightRecord>(tree, child);
         if (record) {
-            chain_weights.push_back({child, joint, record->chain, record->weight});
+            chain_weights.push_back({*record, child, joint});
         } else {
             faults.add(record.error());
         }
@@ -200,6 +200,15 @@ SkeletonView read_skeleton(const ChunkTree& tree, std::uint32_t object, Faults& 
     }
     read_joint_names(tree, object, skeleton, faults);
     return skeleton;
+}
+
+std::vector<std::uint32_t> depths_of(std::span<const JointView> joints) {
+    std::vector<std::uint32_t> depths(joints.size());
+    for (std::size_t joint = 0; joint < joints.size(); ++joint) {
+        const std::uint32_t parent = joints[joint].parent;
+        depths[joint] = parent == kNone ? 0 : depths[parent] + 1;
+    }
+    return depths;
 }
 
 void check_skeleton_values(const ChunkTree& tree, const SkeletonView& skeleton, Faults& faults) {

@@ -14,14 +14,17 @@ from pathlib import Path
 
 # Of the format's headers, the types that a Model hands out.
 VIEWS = {
-    "clip.h": ["TrackView", "PlayView", "ClipView"],
+    "clip.h": ["TrackView", "ClipView"],
+    "constraint.h": ["ConstraintView"],
     "curve.h": ["CurveView"],
+    "ik_chain.h": ["ChainView"],
     "joint.h": ["SubmeshView", "ChainWeightView"],
     "lod.h": ["MeshCollapseView", "CollapseView"],
     "marker.h": ["Marker"],
     "material.h": ["MaterialView", "ImageView", "TextureView"],
     "mesh.h": ["StreamView", "PaletteView", "MorphTargetView", "AttributeView", "MeshView"],
     "records.h": ["SamplerRecord", "SameRecord", "TextureUseRecord", "SurfaceRecord", "ConstraintRecord", "ChainRecord",
+                  "ChainWeightRecord", "PlayRecord",
                   "ComponentType", "Topology", "TrackPath", "Interpolation", "CurveTarget", "Filter", "Wrap", "AlphaMode",
                   "MediaType", "ConstraintModel", "EulerOrder", "ConstraintScope", "Solver"],
 }

@@ -60,8 +60,8 @@ TEST_F(CContents, ChainsMeshesTargetsAndMaterialsAreTheModels) {
         auto chain = sized<bendy_chain>();
         ASSERT_EQ(bendy_get_chain(model_.get(), number, &chain, &error_), BENDY_OK);
         EXPECT_EQ(chain.name, std::string(expected_->chains()[number].name));
-        EXPECT_EQ(chain.start, expected_->chains()[number].start);
-        EXPECT_EQ(chain.effector, expected_->chains()[number].effector);
+        EXPECT_EQ(chain.start, expected_->chains()[number].record.start);
+        EXPECT_EQ(chain.effector, expected_->chains()[number].record.effector);
         EXPECT_EQ(chain.links, expected_->chains()[number].links);
     }
     std::uint32_t targets = 0;

@@ -62,9 +62,10 @@ void read_all(const Model& model) {
     for (const Chain& chain : model.chains()) {
         look_at(chain.name);
         look_at(chain.extras);
-        check(chain.start <= chain.effector && chain.effector < joints, "a chain's joints are there");
-        check(chain.target == kNone || chain.target < joints, "a chain's target is there");
-        check(chain.pole == kNone || chain.pole < joints, "a chain's pole is there");
+        check(chain.record.start <= chain.record.effector && chain.record.effector < joints,
+              "a chain's joints are there");
+        check(chain.record.target == kNone || chain.record.target < joints, "a chain's target is there");
+        check(chain.record.pole == kNone || chain.record.pole < joints, "a chain's pole is there");
         for (const ChainWeightView& chain_weight : model.chain_weights(chain))
             check(chain_weight.joint < joints, "a weight's joint is there");
     }

@@ -178,7 +178,7 @@ protected:
     [[nodiscard]] const ConstraintRecord& record() const { return GetParam().constraint; }
 
     [[nodiscard]] glm::dquat quickly_clamped(const Constraint& c, const glm::dquat& R) const {
-        return quick_legal_rotation(c.model, c.euler_order, c.shape, R);
+        return quick_legal_rotation(c, c.shape, R);
     }
 
     /// Whether a share of all rotations is legal.

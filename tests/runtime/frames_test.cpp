@@ -80,7 +80,7 @@ TEST_F(Frames, TwoShareTheWeightAndTheLastGoesOnToTheFirst) {
 }
 
 TEST_F(Frames, OpenOnesAreHeldAtTheLast) {
-    const PlayView open{kMesh, 1, 2, false};
+    const PlayRecord open{kMesh, 1, 2, false};
     const auto at = [&](float seconds) {
         const FrameMix mix = mix_frames(open, *flap_, seconds);
         return std::vector<double>{static_cast<double>(mix.left), static_cast<double>(mix.right), mix.fraction};
@@ -89,7 +89,7 @@ TEST_F(Frames, OpenOnesAreHeldAtTheLast) {
     EXPECT_EQ(at(0.25f), (std::vector<double>{1, 2, 0.5}));
     EXPECT_EQ(at(0.5f), (std::vector<double>{2, 2, 0}));
     EXPECT_EQ(at(1.5f), (std::vector<double>{2, 2, 0}));
-    const PlayView one{kMesh, 2, 1, true};
+    const PlayRecord one{kMesh, 2, 1, true};
     EXPECT_EQ(mix_frames(one, *flap_, 0.25f).left, 2u);
     EXPECT_EQ(mix_frames(one, *flap_, 0.25f).right, 2u);
 }

@@ -242,7 +242,7 @@ TEST(IkQuick, ChainsTogetherComeOutAsOneAfterAnother) {
             for (std::size_t k = 0; k < 9; ++k) {
                 ReachRequest& request = requests.emplace_back();
                 request.chain = &model->chains()[static_cast<std::size_t>(dice.number(0.0f, 11.99f))];
-                const std::uint32_t middle = model->joints()[request.chain->effector].parent;
+                const std::uint32_t middle = model->joints()[request.chain->record.effector].parent;
                 request.target = glm::vec3(together.model_space()[middle][3]) + dice.point(1.0f);
                 if (dice.one_in(4)) request.options.pole = dice.point(3.0f);
                 if (dice.one_in(3)) request.options.obey_constraints = false;

@@ -92,7 +92,7 @@ double worst_violation(const Model& model, const Pose& pose) {
 void pose_at_random(const Model& model, const Chain& chain, double share, Pose& pose, std::mt19937& random) {
     std::uniform_real_distribution<double> angle(-2.0, 2.0);
     pose.set_rest();
-    for (std::uint32_t joint = chain.start; joint <= chain.effector; ++joint) {
+    for (std::uint32_t joint = chain.record.start; joint <= chain.record.effector; ++joint) {
         glm::dvec3 turn;
         for (const int axis : {2, 1, 0}) turn[axis] = angle(random);  // in the same order by every compiler
         const glm::dquat R = glm::angleAxis(glm::length(turn), glm::normalize(turn));
@@ -382,8 +382,8 @@ TEST(Ik, WhatIsMeantForOnePurposeGoesBeforeInAnyOrder) {
             const bool in_ik = own == ConstraintScope::ik_only;
             ASSERT_NE(model->constraint(1), nullptr);
             ASSERT_NE(model->ik_constraint(1), nullptr);
-            EXPECT_EQ(model->constraint(1)->scope, in_ik ? ConstraintScope::every_pose : own) << own_first;
-            EXPECT_EQ(model->ik_constraint(1)->scope, in_ik ? own : ConstraintScope::every_pose) << own_first;
+            EXPECT_EQ(model->constraint(1)->scope(), in_ik ? ConstraintScope::every_pose : own) << own_first;
+            EXPECT_EQ(model->ik_constraint(1)->scope(), in_ik ? own : ConstraintScope::every_pose) << own_first;
         }
     }
 }
@@ -495,7 +495,7 @@ TEST(Ik, DistanceAndToleranceAreMetresOfModelSpace) {
                 pose.set_rest();
                 const glm::vec3 target = start + way * glm::normalize(glm::vec3(0.5f, 0.7f, 0.3f));
                 const ReachResult result = *reach(pose, &chain, target, options);
-                const float left = glm::length(position_of(pose, chain.effector) - target);
+                const float left = glm::length(position_of(pose, chain.record.effector) - target);
                 EXPECT_NEAR(result.distance, left, 1e-4f) << scale << ' ' << static_cast<int>(solver) << ' ' << way;
                 if (solver == Solver::aim) continue;
                 EXPECT_EQ(result.status, way < 2.0f ? ReachStatus::reached : ReachStatus::out_of_reach);
@@ -896,7 +896,7 @@ TEST(Ik, WhereAnySolverArrivesInsideTheConstraintsEveryOneDoes) {
         Pose pose(*model);
         for (int i = 0; i < kTargets; ++i) {
             pose_at_random(*model, chain, 1.0, pose, random);
-            const glm::vec3 target = position_of(pose, chain.effector);
+            const glm::vec3 target = position_of(pose, chain.record.effector);
             std::array<bool, kAll.size()> arrived{};
             for (std::size_t k = 0; k < kAll.size(); ++k) {
                 pose.set_rest();
@@ -967,7 +967,7 @@ TEST(Ik, MirroredTargetsGiveMirroredPoses) {
                 // At the very edge of what the constraints allow rounding decides which beginning arrives: with other
                 // targets, up to 2 of the 60 of a limb have come out unlike.
                 pose_at_random(*model, left, 0.9, one, random);
-                const glm::vec3 target = position_of(one, left.effector);
+                const glm::vec3 target = position_of(one, left.record.effector);
                 for (std::size_t k = 0; k < kAll.size(); ++k) {
                     ReachOptions options;
                     options.solver = kAll.at(k);
@@ -977,8 +977,8 @@ TEST(Ik, MirroredTargetsGiveMirroredPoses) {
                     EXPECT_TRUE(reach(other, &right, glm::vec3(-target.x, target.y, target.z), options));
                     float off = 0.0f;
                     for (std::uint32_t link = 0; link < left.links; ++link) {
-                        const glm::vec3 p = position_of(one, left.start + link);
-                        const glm::vec3 q = position_of(other, right.start + link);
+                        const glm::vec3 p = position_of(one, left.record.start + link);
+                        const glm::vec3 q = position_of(other, right.record.start + link);
                         off = std::max(off, glm::length(p - glm::vec3(-q.x, q.y, q.z)));
                     }
                     unlike.at(k) += off > 2e-3f ? 1 : 0;

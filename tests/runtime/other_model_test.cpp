@@ -183,11 +183,12 @@ const std::vector<std::string> kNumberCalls{
 
 /// Calls that read nothing but the part that they are given, so that no model is involved.
 const std::vector<std::string> kOwnCalls{
+    "ChainView::solver()",
     "Playback::Playback(const Clip& clip)",
     "apply_morph_targets(const Mesh& mesh, std::span<const float> weights, const Vertices& out)",
     "find_curve(const ClipView& clip, std::string_view name_or_path)",
     "find_curve(const ClipView& clip, CurveTarget kind, std::uint32_t target, std::string_view path)",
-    "mix_frames(const PlayView& play, const Clip& clip, float seconds)",
+    "mix_frames(const PlayRecord& play, const Clip& clip, float seconds)",
 };
 
 /// The calls of all public headers, as check_counterparts.py has them, that take a part of a model.

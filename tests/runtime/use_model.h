@@ -30,7 +30,7 @@ inline std::uint64_t read_all(const Model& model) {
     for (const Constraint& constraint : model.constraints()) EXPECT_LT(constraint.joint, model.joints().size());
     for (const Chain& chain : model.chains()) {
         sum += touch(chain.name) + touch(chain.extras);
-        EXPECT_LE(chain.start, chain.effector);
+        EXPECT_LE(chain.record.start, chain.record.effector);
         EXPECT_LE(chain.links, model.longest_chain());
     }
     for (const Submesh& submesh : model.submeshes()) {

@@ -180,8 +180,8 @@ TEST_F(DemoTest, KeysBendTheTentacleToTheSidesThatAreSeen) {
 TEST_F(DemoTest, TabGoesThroughTheJointsAndBackToAll) {
     EXPECT_EQ(demo.state().joint, kNone);
     EXPECT_EQ(demo.links().size(), demo.chain().links);
-    EXPECT_EQ(demo.links().front(), demo.chain().start);
-    EXPECT_EQ(demo.links().back(), demo.chain().effector);
+    EXPECT_EQ(demo.links().front(), demo.chain().record.start);
+    EXPECT_EQ(demo.links().back(), demo.chain().record.effector);
     for (const std::uint32_t joint : demo.links()) {
         demo.press(DemoKey::next_joint);
         EXPECT_EQ(demo.state().joint, joint);

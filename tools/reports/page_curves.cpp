@@ -112,11 +112,11 @@ Json shown_markers(const ClipView& clip) {
 Json shown_plays(const ClipView& clip, const ObjectView& object) {
     constexpr std::size_t kMostPlays = 24;
     Json plays = Json::array();
-    for (const PlayView& play : std::span(clip.plays).first(std::min(clip.plays.size(), kMostPlays))) {
+    for (const PlayRecord& play : std::span(clip.plays).first(std::min(clip.plays.size(), kMostPlays))) {
         plays.push_back({{"mesh", brief(object.meshes[play.mesh].name)},
                          {"first", play.first},
                          {"frames", play.frames},
-                         {"closed", play.closed}});
+                         {"closed", play.closed != 0}});
     }
     return plays;
 }

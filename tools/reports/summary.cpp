@@ -335,8 +335,8 @@ Summary summarize(const Model& model, Bytes file) {
     for (const Joint& joint : model.joints()) summary.joints.push_back({std::string(joint.name), joint.parent});
     summary.constraints = model.constraints().size();
     for (const Chain& chain : model.chains()) {
-        summary.chains.push_back({std::string(chain.name), name_of_joint(model, chain.start),
-                                  name_of_joint(model, chain.effector), chain.links});
+        summary.chains.push_back({std::string(chain.name), name_of_joint(model, chain.record.start),
+                                  name_of_joint(model, chain.record.effector), chain.links});
     }
     summary.meshes = list_meshes(model);
     summary.levels = list_levels(model);

@@ -60,8 +60,8 @@ bendy_status bendy::capi::get_marker(const bendy_model* model, uint32_t clip, ui
 
 bendy_status bendy::capi::get_frame_sequence(const bendy_model* model, uint32_t clip, uint32_t frame_sequence,
                                              bendy_frame_sequence& out, bendy_error* /*error*/) {
-    const bendy::PlayView& view = model->get().clips()[clip].plays[frame_sequence];
-    out = {0, view.mesh, view.first, view.frames, view.closed ? 1U : 0U};
+    const bendy::PlayRecord& view = model->get().clips()[clip].plays[frame_sequence];
+    out = {0, view.mesh, view.first, view.frames, view.closed};
     return BENDY_OK;
 }
 

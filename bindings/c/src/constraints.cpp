@@ -91,7 +91,7 @@ bendy_status bendy::capi::get_links(const bendy_model* model, uint32_t chain, ui
     const auto chains = model->get().chains();
     const bendy::Chain& view = chains[chain];
     if (const bendy_status status = check_room(count, view.links, "joints", error)) return status;
-    std::uint32_t joint = view.effector;
+    std::uint32_t joint = view.record.effector;
     for (std::uint32_t k = view.links; k-- > 0; joint = model->get().parents()[joint]) {
         joints[k] = joint;
         if (weights != nullptr) weights[k] = 1.0f;

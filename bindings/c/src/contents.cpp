@@ -134,11 +134,7 @@ bendy_status bendy::capi::get_chain(const bendy_model* model, uint32_t chain, be
     const Names& names = model->character->names;
     to_c(view.record, out);
     out.name = names.chains[chain].c_str();
-    out.start = view.start;
-    out.effector = view.effector;
     out.links = view.links;
-    out.target = view.target;
-    out.pole = view.pole;
     out.extras = names.chain_extras[chain].c_str();
     return BENDY_OK;
 }

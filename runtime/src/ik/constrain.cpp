@@ -14,7 +14,7 @@ constexpr double kRounding = 1e-6;
 }  // namespace
 
 glm::dquat clamp_rotation(const Constraint& constraint, const glm::dquat& R) {
-    return nearest_rotation(constraint.model, constraint.euler_order, constraint.shape, R);
+    return nearest_rotation(constraint, constraint.shape, R);
 }
 
 double violation(const Constraint& constraint, const glm::dquat& R) {

@@ -69,13 +69,8 @@ glm::dquat unit_frame(const std::array<float, 4>& frame) {
 }  // namespace
 
 Constraint make_constraint(const ConstraintView& view) {
+    Constraint constraint{view};
     const ConstraintRecord& record = view.record;
-    Constraint constraint;
-    constraint.joint = view.joint;
-    constraint.model = static_cast<ConstraintModel>(record.model);
-    constraint.euler_order = static_cast<EulerOrder>(record.euler_order);
-    constraint.scope = static_cast<ConstraintScope>(record.scope);
-    constraint.flags = record.flags;
     constraint.frame = unit_frame(record.frame);
     constraint.shape = make_shape(record, 0.0);
     constraint.has_soft_zone = record.soft_zone > 0.0f && record.soft_zone < ConstraintRecord::kFree;
@@ -87,7 +82,6 @@ Constraint make_constraint(const ConstraintView& view) {
                                         record.translation_min[i] > -ConstraintRecord::kFree ||
                                         record.translation_max[i] < ConstraintRecord::kFree;
     }
-    constraint.record = record;
     return constraint;
 }
 

@@ -55,7 +55,7 @@ private:
 
     [[nodiscard]] Solver solver() const {
         if (options_.solver != Solver::any) return options_.solver;
-        if (chain_.solver != Solver::any) return chain_.solver;
+        if (chain_.solver() != Solver::any) return chain_.solver();
         const auto bones =
             std::count_if(links_.begin(), links_.end(), [](const IkLink& link) { return link.bone_length > 0.0; });
         return bones == 2 ? Solver::two_bone : Solver::least_squares;
@@ -71,9 +71,9 @@ private:
 
     /// Fills the links and the problem from the pose. Returns false if a number is not finite.
     bool gather() {
-        std::uint32_t joint = chain_.effector;
+        std::uint32_t joint = chain_.record.effector;
         for (std::size_t i = links_.size(); i-- > 0; joint = joints_[joint].parent) links_[i].joint = joint;
-        base_ = state_.fresh_matrix(joints_[chain_.start].parent);
+        base_ = state_.fresh_matrix(joints_[chain_.record.start].parent);
         inverse_base_ = glm::affineInverse(base_);
         gather_links();
         gather_weights();
@@ -135,7 +135,7 @@ private:
             }
         }
         for (IkLink& link : links_) {
-            const bool is_locked = link.constraint != nullptr && link.constraint->model == ConstraintModel::locked;
+            const bool is_locked = link.constraint != nullptr && link.constraint->model() == ConstraintModel::locked;
             link.is_fixed = is_locked || link.freedom == glm::dvec3(0.0);
         }
     }
@@ -144,7 +144,7 @@ private:
         const ChainRecord& record = chain_.record;
         problem_.links = links_;
         problem_.options = &options_;
-        problem_.origin = glm::dvec3(local(chain_.start).translation) / problem_.scale;
+        problem_.origin = glm::dvec3(local(chain_.record.start).translation) / problem_.scale;
         problem_.target = to_base(target_.position);
         problem_.tip_rotation =
             unit({record.tip_rotation[3], record.tip_rotation[0], record.tip_rotation[1], record.tip_rotation[2]});
@@ -191,8 +191,8 @@ private:
         problem_.has_pole = true;
         if (options_.pole) {
             problem_.pole = to_base(*options_.pole);
-        } else if (chain_.pole != kNone) {
-            problem_.pole = to_base(glm::dvec3(state_.fresh_matrix(chain_.pole)[3]));
+        } else if (chain_.record.pole != kNone) {
+            problem_.pole = to_base(glm::dvec3(state_.fresh_matrix(chain_.record.pole)[3]));
         } else if (direction != glm::dvec3(0.0)) {
             constexpr double kFar = 1e3;  // chain lengths: a direction becomes a distant point
             problem_.pole = problem_.origin + kFar * direction;
@@ -342,7 +342,7 @@ private:
                                          ? link.local
                                          : between(glm::normalize(glm::dquat(joint.rotation)), link.local, influence);
             joint.rotation = glm::quat(glm::normalize(mixed));
-            if (stretch_ != 1.0 && link.joint != chain_.start)
+            if (stretch_ != 1.0 && link.joint != chain_.record.start)
                 joint.translation *= static_cast<float>(1.0 + influence * (stretch_ - 1.0));
             state_.set_local(link.joint, joint);
         }
@@ -397,18 +397,18 @@ bool is_at_or_below(const Model& model, std::uint32_t joint, std::uint32_t ances
 void carry_target(const Chain& chain, Pose& pose) {
     const Model& model = pose.model();
     PoseState& state = PoseState::of(pose);
-    if (chain.target == kNone || is_at_or_below(model, chain.target, chain.start) ||
-        is_at_or_below(model, chain.start, chain.target)) {
+    if (chain.record.target == kNone || is_at_or_below(model, chain.record.target, chain.record.start) ||
+        is_at_or_below(model, chain.record.start, chain.record.target)) {
         return;
     }
     const auto& offset = chain.record.tip_offset;
-    const glm::dvec4 tip = state.fresh_matrix(chain.effector) * glm::dvec4(offset[0], offset[1], offset[2], 1.0);
-    const std::uint32_t parent = model.joints()[chain.target].parent;
+    const glm::dvec4 tip = state.fresh_matrix(chain.record.effector) * glm::dvec4(offset[0], offset[1], offset[2], 1.0);
+    const std::uint32_t parent = model.joints()[chain.record.target].parent;
     const glm::dmat4 space = state.fresh_matrix(parent);
     if (std::abs(glm::determinant(space)) < 1e-30) return;
-    JointTransform local = pose.local(chain.target);
+    JointTransform local = pose.local(chain.record.target);
     local.translation = glm::vec3(glm::inverse(space) * tip);
-    pose.set_local(chain.target, local);
+    pose.set_local(chain.record.target, local);
 }
 
 }  // namespace

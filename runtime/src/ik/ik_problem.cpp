@@ -81,15 +81,13 @@ void IkProblem::restore() {
 glm::dquat legal_local(const IkLink& link, const glm::dquat& local) {
     if (link.constraint == nullptr) return local;
     const Constraint& c = *link.constraint;
-    return through_limits(
-        link, local, [&](const glm::dquat& R) { return quick_legal_rotation(c.model, c.euler_order, c.shape, R); });
+    return through_limits(link, local, [&](const glm::dquat& R) { return quick_legal_rotation(c, c.shape, R); });
 }
 
 glm::dquat nearest_legal_local(const IkLink& link, const glm::dquat& local) {
     if (link.constraint == nullptr) return local;
     const Constraint& c = *link.constraint;
-    return through_limits(link, local,
-                          [&](const glm::dquat& R) { return nearest_rotation(c.model, c.euler_order, c.shape, R); });
+    return through_limits(link, local, [&](const glm::dquat& R) { return nearest_rotation(c, c.shape, R); });
 }
 
 glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local) {
@@ -98,11 +96,11 @@ glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local) {
     return through_limits(link, local, [&](const glm::dquat& R) {
         const glm::dquat before = glm::conjugate(link.rest_frame) * link.local * link.frame;
         const auto depth = [&](const glm::dquat& rotation) {
-            return angle_between(quick_legal_rotation(c.model, c.euler_order, c.inner, rotation), rotation);
+            return angle_between(quick_legal_rotation(c, c.inner, rotation), rotation);
         };
         const double in_zone = depth(R);
         const bool goes_deeper = in_zone > 0.0 && in_zone > depth(before);
-        return quick_legal_rotation(c.model, c.euler_order, c.shape, goes_deeper ? between(before, R, 0.5) : R);
+        return quick_legal_rotation(c, c.shape, goes_deeper ? between(before, R, 0.5) : R);
     });
 }
 
@@ -117,7 +115,7 @@ glm::dvec3 preferred_side(const Constraint& constraint) {
     const auto swing = [&](std::size_t side) {  // free: infinite; counts as half a turn
         return std::min(shape.swing_high.at(side), 1.0) - std::min(shape.swing_low.at(side), 1.0);
     };
-    switch (constraint.model) {
+    switch (constraint.model()) {
         case ConstraintModel::hinge:
             return {middle(0), 0.0, 0.0};
         case ConstraintModel::swing_twist_ellipse:
@@ -136,7 +134,7 @@ glm::dvec3 only_axis(const Constraint& constraint) {
         constexpr double kNarrow = 1e-6;  // radians
         return shape.swing_low.at(side) + shape.swing_high.at(side) > kNarrow;
     };
-    switch (constraint.model) {
+    switch (constraint.model()) {
         case ConstraintModel::hinge:
             return {1.0, 0.0, 0.0};
         case ConstraintModel::swing_twist_ellipse:
@@ -149,8 +147,8 @@ glm::dvec3 only_axis(const Constraint& constraint) {
 }
 
 glm::dvec3 wider_axis(const Constraint& constraint) {
-    const bool has_swing = constraint.model == ConstraintModel::swing_twist_ellipse ||
-                           constraint.model == ConstraintModel::swing_twist_pyramid;
+    const bool has_swing = constraint.model() == ConstraintModel::swing_twist_ellipse ||
+                           constraint.model() == ConstraintModel::swing_twist_pyramid;
     if (!has_swing || only_axis(constraint) != glm::dvec3(0.0)) return glm::dvec3(0.0);
     const LimitShape& shape = constraint.shape;
     const auto width = [&](std::size_t side) { return shape.swing_low.at(side) + shape.swing_high.at(side); };

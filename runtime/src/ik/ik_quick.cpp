@@ -84,7 +84,7 @@ public:
     }
 
     BENDY_ALWAYS_INLINE bool is_there() const { return constraint_ != nullptr; }
-    BENDY_ALWAYS_INLINE bool is_hinge() const { return is_there() && constraint_->model == ConstraintModel::hinge; }
+    BENDY_ALWAYS_INLINE bool is_hinge() const { return is_there() && constraint_->model() == ConstraintModel::hinge; }
     [[nodiscard]] bool prefers_back() const { return bendy::prefers_back(constraint_); }
     /// Returns true if it only restricts which rotations are legal.
     BENDY_ALWAYS_INLINE bool is_plain() const { return !is_there() || says_rotations_only(); }
@@ -122,14 +122,13 @@ public:
 
 private:
     [[nodiscard]] bool says_rotations_only() const {
-        return constraint_->model != ConstraintModel::locked && !constraint_->has_soft_zone &&
+        return constraint_->model() != ConstraintModel::locked && !constraint_->has_soft_zone &&
                constraint_->stiffness == glm::dvec3(0.0);
     }
     [[nodiscard]] Side find_side(const glm::dquat& local) const {
         const Rotation rest_frame = rotation_of(*rest_frame_);
         const Rotation R = conjugate(rest_frame) * rotation_of(local) * rotation_of(constraint_->frame);
-        const Rotation legal = rotation_of(
-            quick_legal_rotation(constraint_->model, constraint_->euler_order, constraint_->shape, glm_of(R)));
+        const Rotation legal = rotation_of(quick_legal_rotation(*constraint_, constraint_->shape, glm_of(R)));
         const Rotation by = conjugate(legal) * R;
         const double off = 4.0 * (by.x * by.x + by.y * by.y + by.z * by.z);  // angle squared
         constexpr double kInside = 1e-7, kOutside = 2e-6;
@@ -144,9 +143,9 @@ private:
 /// The limits of a limb's joints.
 struct LimbLimits {
     BENDY_ALWAYS_INLINE LimbLimits(const ModelData& model, const Chain& chain, const ReachOptions& options)
-        : upper(model, chain.start, options),
-          lower(model, model.parents[chain.effector], options),
-          end(model, chain.effector, options) {}
+        : upper(model, chain.record.start, options),
+          lower(model, model.parents[chain.record.effector], options),
+          end(model, chain.record.effector, options) {}
 
     BENDY_ALWAYS_INLINE bool are_there() const { return upper.is_there() || lower.is_there() || end.is_there(); }
     BENDY_ALWAYS_INLINE bool are_plain() const {
@@ -164,7 +163,7 @@ struct Pole {
 
 BENDY_ALWAYS_INLINE Pole find_pole(const Chain& chain, PoseState& state, const ReachOptions& options) {
     if (options.pole) return {true, true, *options.pole};
-    if (chain.pole != kNone) return {true, true, glm::dvec3(state.fresh_matrix(chain.pole)[3])};
+    if (chain.record.pole != kNone) return {true, true, glm::dvec3(state.fresh_matrix(chain.record.pole)[3])};
     const auto& vector = chain.record.pole_vector;
     const glm::dvec3 direction(vector[0], vector[1], vector[2]);
     return {direction != glm::dvec3(0.0), false, direction};
@@ -221,8 +220,8 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
         const Vector axis = reach.way * (1.0 / root(reach.distance));
         if (!limits.upper.swivel(upper, {axis.x, axis.y, axis.z})) return std::nullopt;
     }
-    state.set_rotation(chain.start, glm::quat(upper));
-    state.set_rotation(model.parents[chain.effector], glm::quat(glm_of(reach.lower)));
+    state.set_rotation(chain.record.start, glm::quat(upper));
+    state.set_rotation(model.parents[chain.record.effector], glm::quat(glm_of(reach.lower)));
     return ReachResult{ReachStatus::reached, static_cast<float>(distance), 0.0f, 1};
 }
 
@@ -230,7 +229,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
                                      const ReachOptions& options) {
     PoseState& state = PoseState::of(pose);
     const ModelData& model = *state.data;
-    const std::uint32_t joint = chain.start;
+    const std::uint32_t joint = chain.record.start;
     const JointTransform transform = state.local_of(joint);
     const LinkConstraint limit(model, joint, options);
     const auto& turned_tip = chain.record.tip_rotation;
@@ -287,7 +286,7 @@ bool is_plain(const Chain& chain, const ReachTarget& target, const Pose& pose, c
 
 bool is_two_bone(const Chain& chain, const ReachOptions& options) {
     constexpr std::uint32_t kLinks = 3;  // including the effector
-    const Solver solver = options.solver != Solver::any ? options.solver : chain.solver;
+    const Solver solver = options.solver != Solver::any ? options.solver : chain.solver();
     return (solver == Solver::any || solver == Solver::two_bone) && chain.links == kLinks;
 }
 
@@ -298,10 +297,10 @@ bool gather_limb(const Chain& chain, const ReachTarget& target, Pose& pose, cons
                  TwoBoneLimbs<count>& limbs, std::size_t number) {
     PoseState& state = PoseState::of(pose);
     const ModelData& model = *state.data;
-    const std::uint32_t start = chain.start;
-    const std::uint32_t middle = model.parents[chain.effector];
+    const std::uint32_t start = chain.record.start;
+    const std::uint32_t middle = model.parents[chain.record.effector];
     const LimbLimits limits(model, chain, options);
-    const JointTransform tip = state.local_of(chain.effector);
+    const JointTransform tip = state.local_of(chain.record.effector);
     Rotation end = rotation_of(tip.rotation);
     if (model.joints[start].shear != glm::vec3(0.0f) || model.joints[middle].shear != glm::vec3(0.0f) ||
         !normalize_local(end) || !limits.are_plain()) {
@@ -368,7 +367,7 @@ std::optional<ReachResult> reach_quickly(const Chain& chain, const ReachTarget& 
                                          const ReachOptions& options) {
     if (!is_plain(chain, target, pose, options)) return std::nullopt;
     if (is_two_bone(chain, options)) return reach_two_bone(chain, target, pose, options);
-    const Solver solver = options.solver != Solver::any ? options.solver : chain.solver;
+    const Solver solver = options.solver != Solver::any ? options.solver : chain.solver();
     if (solver == Solver::aim && chain.links == 1) return reach_aim(chain, target, pose, options);
     return std::nullopt;
 }

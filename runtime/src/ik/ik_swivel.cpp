@@ -70,7 +70,7 @@ private:
     [[nodiscard]] double excess(double angle) const {
         const trig::SinCos half = trig::sin_cos(0.5 * angle);
         const glm::dquat R = at_zero_ * half.cos + at_half_ * half.sin;
-        return angle_between(quick_legal_rotation(constraint_.model, constraint_.euler_order, constraint_.shape, R), R);
+        return angle_between(quick_legal_rotation(constraint_, constraint_.shape, R), R);
     }
 
     /// Returns the first legal angle between an illegal and a legal one, to kNear. Close to it, the excess is nearly

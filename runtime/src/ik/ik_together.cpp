@@ -36,7 +36,7 @@ public:
     /// Returns true if a pending chain moves the joint.
     [[nodiscard]] bool will_move(std::uint32_t joint) const {
         return std::any_of(limbs_.begin(), limbs_.begin() + count_, [&](const Limb& limb) {
-            const std::uint32_t start = limb.request.chain->start;
+            const std::uint32_t start = limb.request.chain->record.start;
             return start <= joint && joint < ends_[start];
         });
     }
@@ -71,8 +71,8 @@ private:
             !is_plain_limb(*chain, target, pose_, options)) {
             return false;
         }
-        const bool depends =
-            will_move(chain->start) || will_move(chain->effector) || (chain->pole != kNone && will_move(chain->pole));
+        const bool depends = will_move(chain->record.start) || will_move(chain->record.effector) ||
+                             (chain->record.pole != kNone && will_move(chain->record.pole));
         if (depends || !gather_limb(*chain, target, pose_, options, block_.limbs, count_)) return false;
         limbs_[count_++] = {request, number};
         return true;
@@ -90,8 +90,8 @@ private:
         const bool has_limits = block_.limbs.has_limits[0][limb] > 0.0;
         if (!(distance >= 0.0) || (has_limits && !are_legal(*chain, pose_, options, upper, lower))) return false;
         PoseState& state = PoseState::of(pose_);
-        state.set_rotation(chain->start, glm::quat(upper));
-        state.set_rotation(state.data->parents[chain->effector], glm::quat(lower));
+        state.set_rotation(chain->record.start, glm::quat(upper));
+        state.set_rotation(state.data->parents[chain->record.effector], glm::quat(lower));
         note(limbs_[limb].number, ReachResult{ReachStatus::reached, static_cast<float>(distance), 0.0f, 1});
         return true;
     }
@@ -135,9 +135,9 @@ void reach_all(Pose& pose) {
     Together together(pose, {});
     for (const std::uint32_t number : model.chain_order()) {
         const Chain& chain = model.chains()[number];
-        if (chain.target == kNone || !(chain.record.influence > 0.0f)) continue;
-        if (together.will_move(chain.target)) together.solve();
-        const glm::dmat4 followed = state.fresh_matrix(chain.target);
+        if (chain.record.target == kNone || !(chain.record.influence > 0.0f)) continue;
+        if (together.will_move(chain.record.target)) together.solve();
+        const glm::dmat4 followed = state.fresh_matrix(chain.record.target);
         ReachRequest request{&chain, glm::vec3(followed[3]), {}};
         if (chain.record.rotation_weight > 0.0f) request.target.rotation = glm::quat(rigid_rotation(followed));
         request.options.influence = chain.record.influence;

@@ -36,7 +36,7 @@ glm::dvec3 bend_axis(const IkProblem& problem, std::size_t link, const glm::dvec
     const IkLink& middle = problem.links[link];
     if (middle.constraint != nullptr) {
         // A hinge that is outside its constraint bends about its axis as it is.
-        const bool is_hinge = middle.constraint->model == ConstraintModel::hinge;
+        const bool is_hinge = middle.constraint->model() == ConstraintModel::hinge;
         const glm::dquat before =
             is_hinge ? middle.global * middle.frame : problem.parent_global(link) * middle.rest_frame;
         const glm::dvec3 only = only_axis(*middle.constraint);

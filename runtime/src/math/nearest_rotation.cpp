@@ -521,7 +521,8 @@ glm::dquat nearest_to_none(const glm::dquat& R) {
 
 }  // namespace
 
-glm::dquat nearest_rotation(ConstraintModel model, EulerOrder order, const LimitShape& shape, const glm::dquat& R) {
+glm::dquat nearest_rotation(const ConstraintView& constraint, const LimitShape& shape, const glm::dquat& R) {
+    const ConstraintModel model = constraint.model();
     switch (model) {
         case ConstraintModel::locked:
             return nearest_to_none(R);
@@ -531,7 +532,7 @@ glm::dquat nearest_rotation(ConstraintModel model, EulerOrder order, const Limit
         case ConstraintModel::swing_twist_pyramid:
             return nearest_swing_twist(model, shape, R);
         case ConstraintModel::euler_box:
-            return nearest_in_box(make_box(order, shape), R);
+            return nearest_in_box(make_box(constraint.euler_order(), shape), R);
         case ConstraintModel::largest_angle:
             return nearest_by_angle(shape.largest, R);
         default:
@@ -539,7 +540,8 @@ glm::dquat nearest_rotation(ConstraintModel model, EulerOrder order, const Limit
     }
 }
 
-glm::dquat quick_legal_rotation(ConstraintModel model, EulerOrder order, const LimitShape& shape, const glm::dquat& R) {
+glm::dquat quick_legal_rotation(const ConstraintView& constraint, const LimitShape& shape, const glm::dquat& R) {
+    const ConstraintModel model = constraint.model();
     if (model == ConstraintModel::swing_twist_ellipse || model == ConstraintModel::swing_twist_pyramid) {
         const double length = std::sqrt(R.w * R.w + R.x * R.x);
         const glm::dvec2 twist = length < 1e-12 ? glm::dvec2(1.0, 0.0) : glm::dvec2(R.w, R.x) / length;
@@ -558,7 +560,7 @@ glm::dquat quick_legal_rotation(ConstraintModel model, EulerOrder order, const L
         return {legal.x, legal.y, 0.0, 0.0};
     }
     if (model == ConstraintModel::euler_box) {
-        const EulerBox box = make_box(order, shape);
+        const EulerBox box = make_box(constraint.euler_order(), shape);
         const Angles angles = to_angles(box.order, R);
         const Angles other = other_form(angles);
         if (box_holds(box, angles) || box_holds(box, other)) return R;
@@ -566,7 +568,7 @@ glm::dquat quick_legal_rotation(ConstraintModel model, EulerOrder order, const L
         const glm::dquat b = turn(box.order, nearest_angles(box, other));
         return std::abs(dot(a, R)) >= std::abs(dot(b, R)) ? a : b;
     }
-    return nearest_rotation(model, order, shape, R);
+    return nearest_rotation(constraint, shape, R);
 }
 
 }  // namespace bendy

@@ -154,7 +154,7 @@ void Binding::bind(const Clip& clip, const std::vector<bool>& is_root, float roo
         for (std::uint32_t k = 0; k < animated_.meshes()[track.target].targets.size(); ++k)
             bind_target(animated_.first_morph_target(track.target) + k);
     }
-    for (const PlayView& play : clip.plays) {
+    for (const PlayRecord& play : clip.plays) {
         const std::uint32_t frame_1 =
             animated_.first_morph_target(play.mesh) + animated_.meshes()[play.mesh].first_frame;
         for (std::uint32_t k = std::max(play.first, 1u); k < play.first + play.frames; ++k)

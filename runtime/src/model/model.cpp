@@ -50,23 +50,8 @@ std::vector<Submesh> make_submeshes(std::span<const SubmeshView> of_joints) {
     return submeshes;
 }
 
-Chain make_chain(const ChainView& view, std::uint32_t number, std::span<const std::uint32_t> depths) {
-    Chain chain;
-    chain.name = view.name;
-    chain.number = number;
-    chain.record = view.record;
-    chain.start = view.record.start;
-    chain.effector = view.record.effector;
-    chain.links = depths[chain.effector] - depths[chain.start] + 1;
-    chain.target = view.record.target;
-    chain.pole = view.record.pole;
-    chain.solver = static_cast<Solver>(view.record.solver);
-    chain.extras = view.extras;
-    return chain;
-}
-
 void build_rig(ModelData& data) {
-    const SkeletonView& skeleton = data.object.skeleton;
+    SkeletonView& skeleton = data.object.skeleton;
     if (!skeleton.constraints.empty()) data.joint_constraints.resize(data.joints.size());
     data.constraints.reserve(skeleton.constraints.size());
     for (const ConstraintView& constraint : skeleton.constraints) {
@@ -76,7 +61,7 @@ void build_rig(ModelData& data) {
         data.rest_frames.push_back(glm::normalize(glm::dquat(rest)) * made.frame);
         JointConstraints& joint_constraints = data.joint_constraints[constraint.joint];
         // A constraint for a specific scope takes precedence over one for all scopes.
-        switch (data.constraints.back().scope) {
+        switch (made.scope()) {
             case ConstraintScope::every_pose:
                 if (joint_constraints.in_poses == kNone) joint_constraints.in_poses = number;
                 if (joint_constraints.in_ik == kNone) joint_constraints.in_ik = number;
@@ -89,21 +74,17 @@ void build_rig(ModelData& data) {
                 break;
         }
     }
-    if (data.object.chains.empty()) return;
-    const std::vector<std::uint32_t> depths = depths_of(data.joints);
-    for (const ChainView& view : data.object.chains) {
-        data.chains.push_back(make_chain(view, static_cast<std::uint32_t>(data.chains.size()), depths));
-        data.longest_chain = std::max(data.longest_chain, data.chains.back().links);
-    }
-    data.chain_order.resize(data.chains.size());
+    const std::vector<Chain>& chains = data.object.chains;
+    for (const Chain& chain : chains) data.longest_chain = std::max(data.longest_chain, chain.links);
+    data.chain_order.resize(chains.size());
     std::iota(data.chain_order.begin(), data.chain_order.end(), 0u);
     std::stable_sort(data.chain_order.begin(), data.chain_order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return data.chains[a].record.priority < data.chains[b].record.priority;
+        return chains[a].record.priority < chains[b].record.priority;
     });
-    data.weights = skeleton.chain_weights;
-    std::sort(data.weights.begin(), data.weights.end(), [](const ChainWeightView& a, const ChainWeightView& b) {
-        return std::tie(a.chain, a.joint) < std::tie(b.chain, b.joint);
-    });
+    std::sort(skeleton.chain_weights.begin(), skeleton.chain_weights.end(),
+              [](const ChainWeightView& a, const ChainWeightView& b) {
+                  return std::tie(a.chain, a.joint) < std::tie(b.chain, b.joint);
+              });
 }
 
 std::vector<RigidMovers> find_movers(const ObjectView& object) {
@@ -200,7 +181,7 @@ Result<void, CallError> ModelData::check(const Clip* clip) const {
 }
 
 Result<void, CallError> ModelData::check(const Chain* chain) const {
-    return check_in(chains, chain);
+    return check_in(object.chains, chain);
 }
 
 Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& options) {
@@ -231,20 +212,18 @@ const Clip* Model::clip(std::string_view name) const {
 }
 
 const Chain* Model::chain(std::string_view name) const {
-    const auto& chains = data_->chains;
+    const auto& chains = data_->object.chains;
     const auto found =
         std::find_if(chains.begin(), chains.end(), [&](const Chain& chain) { return chain.name == name; });
     return found == chains.end() ? nullptr : &*found;
 }
 
 std::span<const ChainWeightView> Model::chain_weights(const Chain& chain) const {
-    if (!data_->check(&chain)) return {};
-    const auto less = [](const ChainWeightView& chain_weight, std::uint32_t number) {
-        return chain_weight.chain < number;
-    };
-    const auto& weights = data_->weights;
-    const auto first = std::lower_bound(weights.begin(), weights.end(), chain.number, less);
-    const auto last = std::lower_bound(first, weights.end(), chain.number + 1, less);
+    const std::size_t number = number_in(data_->object.chains, &chain);
+    const auto less = [](const ChainWeightView& chain_weight, std::size_t other) { return chain_weight.chain < other; };
+    const auto& weights = data_->object.skeleton.chain_weights;
+    const auto first = std::lower_bound(weights.begin(), weights.end(), number, less);
+    const auto last = std::lower_bound(first, weights.end(), number + 1, less);
     return std::span(weights).subspan(static_cast<std::size_t>(first - weights.begin()),
                                       static_cast<std::size_t>(last - first));
 }
@@ -323,7 +302,7 @@ std::span<const Constraint> Model::constraints() const {
 }
 
 std::span<const Chain> Model::chains() const {
-    return data_->chains;
+    return data_->object.chains;
 }
 
 std::span<const std::uint32_t> Model::chain_order() const {

@@ -58,7 +58,7 @@ struct ModelData {
     Bytes bytes;           ///< the whole file: of `file`, or the caller's
     AlignedBytes decoded;  ///< decoded leaves; the document's views refer to this or to `bytes`
     Document document;
-    ObjectView object;
+    ObjectView object;  ///< chain weights ordered by chain, then joint
     std::vector<Joint> joints;
     std::vector<std::uint32_t> parents;  ///< same order as joints
     bool is_sheared = false;
@@ -70,9 +70,7 @@ struct ModelData {
     std::vector<Constraint> constraints;
     std::vector<glm::dquat> rest_frames;  ///< of each constraint: its joint's rotation at rest, times its frame
     std::vector<JointConstraints> joint_constraints;  ///< one per joint, if there are constraints
-    std::vector<Chain> chains;
     std::vector<std::uint32_t> chain_order;
-    std::vector<ChainWeightView> weights;  ///< ordered by chain, then joint
     std::uint32_t longest_chain = 0;
     std::size_t most_targets = 0;  ///< of a mesh
 

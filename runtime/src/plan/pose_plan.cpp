@@ -100,7 +100,7 @@ double length_of(const MeshView& mesh) {
 bool fits_floats(const ObjectView& object, std::span<const Joint> joints) {
     constexpr double kLargest = 8.0;  // character sizes: 5e-7 of a size per rounding
     constexpr std::uint32_t kDeepest = 64;
-    const std::vector<std::uint32_t> depths = depths_of(joints);
+    const std::vector<std::uint32_t> depths = depths_of(object.skeleton.joints);
     if (joints.empty() || *std::max_element(depths.begin(), depths.end()) > kDeepest) return false;
     std::vector<glm::dmat4> model(joints.size());
     Box places;
@@ -235,15 +235,6 @@ SamplePlan make_sample_plan(const ClipView& clip, std::span<const JointTransform
 
 }  // namespace
 
-std::vector<std::uint32_t> depths_of(std::span<const Joint> joints) {
-    std::vector<std::uint32_t> depths(joints.size());
-    for (std::size_t joint = 0; joint < joints.size(); ++joint) {
-        const std::uint32_t parent = joints[joint].parent;
-        depths[joint] = parent == kNone ? 0 : depths[parent] + 1;
-    }
-    return depths;
-}
-
 PosePlan make_pose_plan(const ObjectView& object, std::span<const Joint> joints) {
     PosePlan plan;
     std::vector<JointTransform> rest;
@@ -257,7 +248,7 @@ PosePlan make_pose_plan(const ObjectView& object, std::span<const Joint> joints)
     plan.subtree_ends = ends_of(joints);
     plan.order.resize(joints.size());
     std::iota(plan.order.begin(), plan.order.end(), 0u);
-    const std::vector<std::uint32_t> depths = depths_of(joints);
+    const std::vector<std::uint32_t> depths = depths_of(object.skeleton.joints);
     std::stable_sort(plan.order.begin(), plan.order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return depths[a] < depths[b]; });
     plan.clips.reserve(object.clips.size());

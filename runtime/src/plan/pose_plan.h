@@ -17,9 +17,6 @@ namespace bendy {
 
 struct Joint;
 
-/// Returns the number of each joint's ancestors; parents come before their children.
-std::vector<std::uint32_t> depths_of(std::span<const Joint> joints);
-
 /// Tracks of one interpolation, grouped for the kernels.
 struct SampleGroups {
     std::vector<TrackGroup> rotations;

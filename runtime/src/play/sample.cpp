@@ -127,10 +127,10 @@ void sample_track(const TrackView& track, const Clip& clip, float seconds, std::
     sample_between(track, find_interval(track, clip, seconds), value.first(track.components));
 }
 
-FrameMix mix_frames(const PlayView& play, const Clip& clip, float seconds) {
+FrameMix mix_frames(const PlayRecord& play, const Clip& clip, float seconds) {
     const double frame = (double{seconds} - clip.start) * clip.frame_rate;
-    const std::uint32_t intervals = play.closed ? play.frames : play.frames - 1;
-    const std::uint32_t end = play.closed ? play.first : play.first + intervals;
+    const std::uint32_t intervals = play.closed != 0 ? play.frames : play.frames - 1;
+    const std::uint32_t end = play.closed != 0 ? play.first : play.first + intervals;
     if (!(frame > 0.0)) return {play.first, play.first};
     if (frame >= intervals) return {end, end};
     const double whole = std::floor(frame);
@@ -167,10 +167,10 @@ private:
     [[nodiscard]] std::size_t joints() const { return model_.joints.size(); }
 
     void sample_plays() const {
-        for (const PlayView& play : clip_.plays) sample_frames(play);
+        for (const PlayRecord& play : clip_.plays) sample_frames(play);
     }
 
-    void sample_frames(const PlayView& play) const {
+    void sample_frames(const PlayRecord& play) const {
         const Mesh& mesh = model_.object.meshes[play.mesh];
         const FrameMix mix = mix_frames(play, clip_, seconds_);
         const auto add = [&](std::uint32_t frame, float weight) {

@@ -18,8 +18,9 @@ namespace bendy::tools {
 namespace {
 
 std::string chain_label(const Model& model, const Chain& chain) {
-    std::string label = chain.name.empty() ? "number " + std::to_string(chain.number) : printable(chain.name);
-    const std::string_view effector = model.joints()[chain.effector].name;
+    std::string label =
+        chain.name.empty() ? "number " + std::to_string(&chain - model.chains().data()) : printable(chain.name);
+    const std::string_view effector = model.joints()[chain.record.effector].name;
     if (!effector.empty()) label += " (moves " + printable(effector) + ")";
     return label;
 }
@@ -30,7 +31,7 @@ const Chain& find_chain(const std::filesystem::path& file, const Model& model, c
     std::vector<std::string_view> moved;
     for (const Chain& chain : chains) {
         own.push_back(chain.name);
-        moved.push_back(model.joints()[chain.effector].name);
+        moved.push_back(model.joints()[chain.record.effector].name);
     }
     const ThingKey key = read_key(name);
     const bool is_own = key.name && std::find(own.begin(), own.end(), *key.name) != own.end();
@@ -120,7 +121,7 @@ ReachGoal parse_goal(const std::string& text, Solver solver, const std::filesyst
         target.rotation = glm::normalize(rotation);
     }
     const Chain& chain = find_chain(file, model, text.substr(0, equals));
-    return {&chain, target, (solver == Solver::any ? chain.solver : solver) == Solver::aim};
+    return {&chain, target, (solver == Solver::any ? chain.solver() : solver) == Solver::aim};
 }
 
 }  // namespace

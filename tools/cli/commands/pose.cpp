@@ -117,9 +117,9 @@ private:
         for (std::size_t k = 0; k < goals_.size(); ++k) {
             const Chain& chain = *goals_[k].chain;
             const ReachResult result = results[k].value_or(ReachResult());
-            reaches.push_back({chain.name.empty() ? std::to_string(chain.number) : std::string(chain.name),
-                               goals_[k].target, result.distance, result.angle, goals_[k].is_aim,
-                               has_reached(results[k])});
+            reaches.push_back(
+                {chain.name.empty() ? std::to_string(&chain - model_.chains().data()) : std::string(chain.name),
+                 goals_[k].target, result.distance, result.angle, goals_[k].is_aim, has_reached(results[k])});
         }
         return reaches;
     }

@@ -292,7 +292,7 @@ void mark_animated(const ObjectView& object, std::span<bool> joints, std::set<st
                 joints[track.target] = true;
             }
         }
-        for (const PlayView& play : clip.plays) meshes.insert(play.mesh);
+        for (const PlayRecord& play : clip.plays) meshes.insert(play.mesh);
         if (!clip.packed) continue;
         for (std::uint32_t j = 0; j < clip.packed->record.joints; ++j) {
             joints[j] = joints[j] || clip.packed->animates(j, TrackPath::rotation) ||

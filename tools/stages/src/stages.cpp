@@ -127,8 +127,8 @@ void Stages::add_morphing() {
 
 void Stages::add_reaching() {
     for (const Chain& chain : model_.chains()) {
-        const glm::vec3 start(pose_.model_space()[chain.start][3]);
-        const glm::vec3 tip(pose_.model_space()[chain.effector][3]);
+        const glm::vec3 start(pose_.model_space()[chain.record.start][3]);
+        const glm::vec3 tip(pose_.model_space()[chain.record.effector][3]);
         targets_.push_back(start + 0.95f * (tip - start));
         targets_.push_back(start + 0.85f * (tip - start));
     }

@@ -117,7 +117,7 @@ bool has_surface(const Model& model) {
 std::vector<bool> find_controls(const Model& model) {
     std::vector<bool> is_control(model.joints().size());
     for (const Chain& chain : model.chains()) {
-        for (const std::uint32_t joint : {chain.target, chain.pole}) {
+        for (const std::uint32_t joint : {chain.record.target, chain.record.pole}) {
             if (joint != kNone) is_control[joint] = true;
         }
     }

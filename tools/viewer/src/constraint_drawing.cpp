@@ -53,7 +53,7 @@ double widest_swing(const Constraint& constraint, double y, double z) {
     const double a = y < 0.0 ? shape.swing_low[0] : shape.swing_high[0];
     const double b = z < 0.0 ? shape.swing_low[1] : shape.swing_high[1];
     constexpr double kNothing = 1e-6;
-    if (constraint.model == ConstraintModel::swing_twist_ellipse) {
+    if (constraint.model() == ConstraintModel::swing_twist_ellipse) {
         // A free axis makes a band, an axis with an empty range a line.
         const double along_y = std::isinf(a) ? 0.0 : std::abs(y) < kNothing ? 0.0 : y / std::max(a, 1e-9);
         const double along_z = std::isinf(b) ? 0.0 : std::abs(z) < kNothing ? 0.0 : z / std::max(b, 1e-9);
@@ -112,7 +112,7 @@ ConstraintDrawing make_constraint_drawing(const Constraint& constraint, const gl
     const double length = glm::length(glm::dvec3(bone));
     const glm::dvec3 towards = length > 0.0 ? glm::dvec3(bone) / length : glm::dvec3(1.0, 0.0, 0.0);
     const LimitShape& shape = constraint.shape;
-    switch (constraint.model) {
+    switch (constraint.model()) {
         case ConstraintModel::locked:
             drawing.is_locked = true;
             drawing.pointer = glm::vec3(towards);

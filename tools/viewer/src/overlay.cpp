@@ -267,7 +267,7 @@ void Overlay::add_targets(std::span<const TargetMark> targets, OverlayList& list
 
 std::vector<std::uint32_t> links_of(const Model& model, const Chain& chain) {
     std::vector<std::uint32_t> links(chain.links);
-    std::uint32_t joint = chain.effector;
+    std::uint32_t joint = chain.record.effector;
     for (std::uint32_t link = chain.links; link-- > 0;) {
         links[link] = joint;
         joint = model.joints()[joint].parent;
@@ -277,15 +277,15 @@ std::vector<std::uint32_t> links_of(const Model& model, const Chain& chain) {
 
 glm::vec3 tip_of(const Chain& chain, Pose& pose) {
     const auto& offset = chain.record.tip_offset;
-    return {pose.model_space()[chain.effector] * glm::vec4(offset[0], offset[1], offset[2], 1.0f)};
+    return {pose.model_space()[chain.record.effector] * glm::vec4(offset[0], offset[1], offset[2], 1.0f)};
 }
 
 std::vector<TargetMark> target_marks(Pose& pose, std::span<const Chain* const> without) {
     std::vector<TargetMark> marks;
     for (const Chain& chain : pose.model().chains()) {
-        const bool is_followed = chain.target != kNone && chain.record.influence > 0.0f;
+        const bool is_followed = chain.record.target != kNone && chain.record.influence > 0.0f;
         if (is_followed && std::find(without.begin(), without.end(), &chain) == without.end())
-            marks.push_back({place(pose, chain.target), tip_of(chain, pose), true});
+            marks.push_back({place(pose, chain.record.target), tip_of(chain, pose), true});
     }
     return marks;
 }

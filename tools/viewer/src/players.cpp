@@ -81,8 +81,9 @@ Player::Player(const Model& model)
     : clip(model.clips().empty() ? kNone : 0), model_(&model), pose_(model), mixed_in_(model) {
     update();
     for (const Chain& chain : model.chains()) {
-        const bool has_target = chain.target != kNone;
-        chains.push_back({false, has_target ? glm::vec3(pose_.model_space()[chain.target][3]) : tip_of(chain, pose_)});
+        const bool has_target = chain.record.target != kNone;
+        chains.push_back(
+            {false, has_target ? glm::vec3(pose_.model_space()[chain.record.target][3]) : tip_of(chain, pose_)});
     }
 }
 
@@ -133,7 +134,7 @@ Demo::Demo(const Model& model)
       pose_(model),
       before_(model),
       other_way_(model) {
-    start_ = glm::vec3(pose_.model_space()[chain_->start][3]);
+    start_ = glm::vec3(pose_.model_space()[chain_->record.start][3]);
     reach_ = 0.0f;
     glm::vec3 last = start_;
     is_link_.resize(model.joints().size());
@@ -148,7 +149,7 @@ Demo::Demo(const Model& model)
     reach_ += glm::length(tip() - last);
     for (const glm::mat4& joint : pose_.model_space()) rest_turns_.push_back(rotation_of(joint));
     reach_ = std::max(reach_, 1e-3f);
-    move_target(chain_->target != kNone ? glm::vec3(pose_.model_space()[chain_->target][3]) : tip());
+    move_target(chain_->record.target != kNone ? glm::vec3(pose_.model_space()[chain_->record.target][3]) : tip());
     step(0.0);
 }
 
@@ -277,7 +278,7 @@ void Demo::bend_all(const glm::vec3& direction, float amount) {
 /// which faces the viewer more, Up and Down about the other one.
 void Demo::bend_joint(const glm::vec3& direction, float amount) {
     const std::uint32_t joint = state_.joint;
-    const bool is_last = joint == chain_->effector;
+    const bool is_last = joint == chain_->record.effector;
     const auto& offset = chain_->record.tip_offset;
     const auto next = std::find(links_.begin(), links_.end(), joint) + 1;
     const glm::vec3 bone =

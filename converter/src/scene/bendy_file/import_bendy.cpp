@@ -243,7 +243,8 @@ public:
                                    {track.values.begin(), track.values.end()}});
         }
         if (view.packed) unpack(view, place, clip);
-        for (const PlayView& play : view.plays) clip.plays.push_back({play.mesh, play.first, play.frames, play.closed});
+        for (const PlayRecord& play : view.plays)
+            clip.plays.push_back({play.mesh, play.first, play.frames, play.closed != 0});
         if (!view.plays.empty()) {
             clip.frame_rate = view.frame_rate;
             clip.frame_start = view.start;

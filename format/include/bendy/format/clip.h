@@ -29,15 +29,6 @@ struct TrackView {
     std::span<const float> values;
 };
 
-/// Frames of a mesh, one after another: frame k has full weight at start + k / frame_rate; between two frames the
-/// weight is split between them.
-struct PlayView {
-    std::uint32_t mesh = 0;
-    std::uint32_t first = 0;   ///< index in MeshView::frames(): first + frames does not exceed their number
-    std::uint32_t frames = 0;  ///< 1 or more
-    bool closed = false;       ///< the first frame follows the last one
-};
-
 struct ClipView {
     std::uint32_t chunk = 0;
     std::string_view name;
@@ -48,7 +39,10 @@ struct ClipView {
     bool has_info = false;  ///< CINF was read
     std::vector<TrackView> tracks;
     std::optional<PackedView> packed;  ///< tracks that are not in `tracks`
-    std::vector<PlayView> plays;       ///< fixed frames
+    /// Frames of a mesh, one after another: frame k has full weight at start + k / frame_rate; between two frames the
+    /// weight is split between them. `first` is an index in MeshView::frames(): first + frames, which is 1 or more,
+    /// does not exceed their number. If `closed` is 1, the first frame follows the last one.
+    std::vector<PlayRecord> plays;
     std::string_view extras;
     std::string_view more;        ///< JSON object, or empty
     std::vector<Marker> markers;  ///< ascending by seconds, possibly equal, in all files that pass check_clip_values

@@ -16,6 +16,10 @@ struct ConstraintView {
     std::uint32_t chunk = 0;
     std::uint32_t joint = 0;
     ConstraintRecord record;
+
+    [[nodiscard]] ConstraintModel model() const { return static_cast<ConstraintModel>(record.model); }
+    [[nodiscard]] EulerOrder euler_order() const { return static_cast<EulerOrder>(record.euler_order); }
+    [[nodiscard]] ConstraintScope scope() const { return static_cast<ConstraintScope>(record.scope); }
 };
 
 /// Reads a LIMT chunk. If its form is wrong (size, model, order, scope, flags), adds a fault and returns false.

@@ -15,7 +15,10 @@ struct ChainView {
     std::uint32_t chunk = 0;
     std::string_view name;
     ChainRecord record;
+    std::uint32_t links = 0;  ///< number of joints from start to effector, both included
     std::string_view extras;
+
+    [[nodiscard]] Solver solver() const { return static_cast<Solver>(record.solver); }
 };
 
 /// Reads the IKCH chunks of an OBJE and makes all checks that memory safety depends on: joints in range, the start

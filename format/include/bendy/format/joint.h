@@ -6,6 +6,7 @@
 #include <bendy/format/records.h>
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -24,11 +25,9 @@ struct SubmeshView {
 };
 
 /// The weight of a joint in an IK chain (not yet checked against the chains).
-struct ChainWeightView {
+struct ChainWeightView : ChainWeightRecord {
     std::uint32_t chunk = 0;
     std::uint32_t joint = 0;
-    std::uint32_t chain = 0;
-    float weight = 1.0f;
 };
 
 struct JointView {
@@ -55,6 +54,9 @@ struct SkeletonView {
 
 /// Reads the SKIN tree of an OBJE chunk, without recursion.
 SkeletonView read_skeleton(const ChunkTree& tree, std::uint32_t object, Faults& faults);
+
+/// Returns for each joint the number of joints above it.
+std::vector<std::uint32_t> depths_of(std::span<const JointView> joints);
 
 /// Adds faults of content: rest transforms that are not finite, rotations that are not unit quaternions, invalid
 /// constraints (check_constraint) and invalid weights in IK chains.

@@ -32,20 +32,14 @@ struct LimitShape {
 };
 
 /// A joint's constraint. R below is the joint's rotation relative to rest, in the constraint's frame C: q = q_rest * C
-/// * R * conj(C).
-struct Constraint {
-    std::uint32_t joint = 0;
-    ConstraintModel model = ConstraintModel::free;
-    EulerOrder euler_order = EulerOrder::xyz;
-    ConstraintScope scope = ConstraintScope::every_pose;
-    std::uint8_t flags = 0;  ///< kApproximated, kProposed, kRestOutside
+/// * R * conj(C). Beside the file's record, its numbers as solvers use them.
+struct Constraint : ConstraintView {
     bool limits_translation = false;
     glm::dquat frame{1, 0, 0, 0};  ///< C
-    LimitShape shape;
+    LimitShape shape = {};
     bool has_soft_zone = false;
-    LimitShape inner;         ///< the shape without its soft zone
+    LimitShape inner = {};    ///< the shape without its soft zone
     glm::dvec3 stiffness{0};  ///< 0 to 1 about the frame's axes
-    ConstraintRecord record;  ///< as in the file
 };
 
 /// Preprocesses a constraint. Impossible numbers (a file may contain any) are replaced by the nearest possible ones.

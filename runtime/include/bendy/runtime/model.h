@@ -23,6 +23,7 @@ struct ModelData;  // internal
 namespace BENDY_PUBLIC bendy {
 
 // The format's views are the runtime's data: they refer to the mapped file.
+using Chain = ChainView;
 using Clip = ClipView;
 using Mesh = MeshView;
 using Material = MaterialView;
@@ -43,20 +44,6 @@ struct Submesh {
     Topology topology = Topology::triangles;
     std::uint32_t first = 0;  ///< index into the mesh's index list
     std::uint32_t count = 0;
-};
-
-/// An IK chain: the joints on the path from the effector up to the start.
-struct Chain {
-    std::string_view name;  ///< UTF-8; may be empty, need not be unique
-    std::uint32_t number = 0;
-    std::uint32_t start = 0;
-    std::uint32_t effector = 0;
-    std::uint32_t links = 0;       ///< number of joints from start to effector, both included
-    std::uint32_t target = kNone;  ///< joint to reach for, or kNone
-    std::uint32_t pole = kNone;    ///< joint to bend towards, or kNone
-    Solver solver = Solver::any;
-    ChainRecord record;       ///< all other fields, as in the file
-    std::string_view extras;  ///< application-specific JSON, or empty
 };
 
 /// When a file's bytes are checked against their integrity sums. In either case the structure is checked when the file

@@ -29,6 +29,6 @@ struct FrameMix {
 
 /// Returns the frames around `seconds`, clamped to the first and last frame; closed ones continue from the last frame
 /// to the first, and are at the first frame again at the end.
-[[nodiscard]] FrameMix mix_frames(const PlayView& play, const Clip& clip, float seconds);
+[[nodiscard]] FrameMix mix_frames(const PlayRecord& play, const Clip& clip, float seconds);
 
 }  // namespace bendy
