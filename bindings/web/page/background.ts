@@ -1,4 +1,5 @@
 // Long-running work: a worker that answers one request after another.
+import { embeddedBytes } from './elements.js';
 import type { Answers, Fault, Reply, Request } from './worker.js';
 
 interface Waiting {
@@ -7,21 +8,25 @@ interface Waiting {
   progress: (share: number) => void;
 }
 
+/** The address of the worker's text, which is the last element of the page. */
+async function unpackWorker(): Promise<string> {
+  if (document.readyState === 'loading') await new Promise((resolve) => document.addEventListener('DOMContentLoaded', resolve, { once: true }));
+  const unpacked = new Blob([embeddedBytes('worker')]).stream().pipeThrough(new DecompressionStream('gzip'));
+  return URL.createObjectURL(new Blob([await new Response(unpacked).arrayBuffer()], { type: 'text/javascript' }));
+}
+
 /** A worker that starts with the first request, and is terminated when its answers are no longer wanted. */
 export class Background {
   #worker: Worker | undefined;
-  #address: string | undefined; // of its text
+  #address: Promise<string> | undefined; // of its text
   #next = 0;
   #waiting = new Map<number, Waiting>();
 
-  async ask<K extends Request['kind']>(request: Request & { kind: K }, progress: (share: number) => void = () => {}): Promise<Answers[K]> {
-    // The worker's text is the last element of the page.
-    if (document.readyState === 'loading') await new Promise((resolve) => document.addEventListener('DOMContentLoaded', resolve, { once: true }));
-    this.#worker ??= this.#start();
+  ask<K extends Request['kind']>(request: Request & { kind: K }, progress: (share: number) => void = () => {}): Promise<Answers[K]> {
     const id = this.#next++;
     return new Promise<Answers[K]>((resolve, reject) => {
       this.#waiting.set(id, { resolve, reject, progress });
-      this.#worker!.postMessage({ id, request });
+      void this.#post(id, request);
     });
   }
 
@@ -38,9 +43,19 @@ export class Background {
     this.#waiting.clear();
   }
 
-  #start(): Worker {
-    this.#address ??= URL.createObjectURL(new Blob([document.getElementById('worker')!.textContent], { type: 'text/javascript' }));
-    const worker = new Worker(this.#address);
+  async #post(id: number, request: Request): Promise<void> {
+    try {
+      const address = await (this.#address ??= unpackWorker());
+      if (!this.#waiting.has(id)) return; // stopped
+      this.#worker ??= this.#start(address);
+      this.#worker.postMessage({ id, request });
+    } catch (error) {
+      this.#end({ code: '', message: String(error), path: '' });
+    }
+  }
+
+  #start(address: string): Worker {
+    const worker = new Worker(address);
     worker.onmessage = ({ data }: MessageEvent<Reply>) => {
       const waiting = this.#waiting.get(data.id);
       if (!waiting) return;

@@ -1,6 +1,7 @@
 // Makes dist/page.html, one file that needs no server: node page/build.mjs EXAMPLE.bendy
 import { readFile, writeFile } from 'node:fs/promises';
 import { execFileSync } from 'node:child_process';
+import { gzipSync } from 'node:zlib';
 import { build } from 'esbuild';
 
 const here = (name) => new URL(name, import.meta.url);
@@ -30,7 +31,7 @@ const parts = {
   '@poster@': `data:image/webp;base64,${await readFile(here('poster.webp'), 'base64')}`,
   '@example@': await readFile(process.argv[2], 'base64'),
   '@main@': await bundle('main.ts'),
-  '@worker@': await bundle('worker.ts'),
+  '@worker@': gzipSync(await bundle('worker.ts'), { level: 9 }).toString('base64'), // the browser reads all of the page, but seldom needs it
 };
 let page = await text('index.html');
 for (const [mark, part] of Object.entries(parts)) page = page.replace(mark, () => part);

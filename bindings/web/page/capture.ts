@@ -12,8 +12,11 @@ export function download(bytes: Uint8Array | Blob, name: string): void {
 }
 
 export async function savePicture(stage: Stage, name: string): Promise<void> {
+  stage.isTaken = true;
   stage.draw();
-  const blob = await new Promise<Blob | null>((resolve) => stage.canvas.toBlob(resolve, 'image/png'));
+  const picture = new Promise<Blob | null>((resolve) => stage.canvas.toBlob(resolve, 'image/png')); // copies the canvas at once
+  stage.isTaken = false;
+  const blob = await picture;
   if (!blob) throw new Error('the browser cannot make a picture of this size');
   download(blob, `${name}.png`);
 }
@@ -39,9 +42,15 @@ export class Turntable {
     recorder.ondataavailable = ({ data }) => pieces.push(data);
     this.#turned = 0;
     this.#recorder = recorder;
-    recorder.start();
-    await new Promise((resolve) => (recorder.onstop = resolve));
-    this.#recorder = undefined;
+    try {
+      this.stage.isTaken = true;
+      this.stage.draw();
+      recorder.start();
+      await new Promise((resolve) => (recorder.onstop = resolve));
+    } finally {
+      this.#recorder = undefined;
+      this.stage.isTaken = false;
+    }
     for (const track of stream.getTracks()) track.stop();
     if (this.#turned < 1) return false;
     download(new Blob(pieces, { type }), `${name}.${type.startsWith('video/mp4') ? 'mp4' : 'webm'}`);

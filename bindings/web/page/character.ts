@@ -21,6 +21,19 @@ function rankOfClip({ name, seconds }: Clip): number {
   return /idle|breath/i.test(name) ? 0 : /walk/i.test(name) ? 1 : 2;
 }
 
+/**
+ * Gives materials without a texture a white one if others have one, so that all have the same program: without a GPU, each takes
+ * about as long to compile as a picture takes to draw.
+ */
+function sharePrograms({ parts }: BendyCharacter): void {
+  const materials = parts.flatMap(({ object }) => object.material).filter((material) => material instanceof THREE.MeshStandardMaterial);
+  if (!materials.some(({ map }) => map)) return;
+  const white = new THREE.DataTexture(new Uint8Array([255, 255, 255, 255]), 1, 1);
+  white.colorSpace = THREE.SRGBColorSpace;
+  white.needsUpdate = true;
+  for (const material of materials) material.map ??= white;
+}
+
 /** The rotations that the constraint of a joint allows. */
 export interface Range {
   constraint: Constraint;
@@ -54,6 +67,7 @@ export class Character {
 
   private constructor(readonly result: BendyCharacter) {
     this.#model = result.model;
+    sharePrograms(result);
     this.#animator = new BendyAnimator(result);
     this.#pose = this.#animator.pose;
     this.clips = [...this.#model.clips];

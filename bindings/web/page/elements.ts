@@ -9,6 +9,9 @@ export const button = (id: string) => element<HTMLButtonElement>(id);
 export const input = (id: string) => element<HTMLInputElement>(id);
 export const select = (id: string) => element<HTMLSelectElement>(id);
 
+/** The bytes that an element of the page has as text in base64. */
+export const embeddedBytes = (id: string): Uint8Array<ArrayBuffer> => Uint8Array.from(atob(element(id).textContent), (letter) => letter.charCodeAt(0));
+
 export function make<K extends keyof HTMLElementTagNameMap>(
   tag: K,
   properties: Partial<HTMLElementTagNameMap[K]> = {},

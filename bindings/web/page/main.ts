@@ -1,5 +1,5 @@
 // The page's main script: shows the poster, then the example, and draws each frame.
-import { element } from './elements.js';
+import { element, make } from './elements.js';
 
 /** Resolves when the poster has been painted: making a picture by WebGL keeps the browser from painting for a while. */
 function posterPainted(): Promise<void> {
@@ -19,4 +19,14 @@ async function start(): Promise<void> {
   });
 }
 
-void posterPainted().then(start);
+/** Says in the place of the welcome why nothing will move. */
+function showFailure(error: unknown): void {
+  const hasWebgl = document.createElement('canvas').getContext('webgl2') !== null;
+  const reason = hasWebgl ? String(error) : 'This browser offers no WebGL 2, which the page draws with.';
+  element('welcome').replaceChildren(make('h2', { id: 'welcome-title' }, 'No picture'), make('p', {}, reason));
+}
+
+void posterPainted()
+  .then(start)
+  .catch(showFailure)
+  .finally(() => document.documentElement.classList.remove('early'));

@@ -1,6 +1,6 @@
 // Shows what was dropped or chosen, or the example.
 import { endComparison } from './comparing.js';
-import { button, element, input, isStill, make, say, select } from './elements.js';
+import { button, element, embeddedBytes, input, isStill, make, say, select } from './elements.js';
 import { acceptedSuffixes, charactersOf, droppedFiles, type Given, isCompanion, isRig, readFiles } from './files.js';
 import { Life } from './life.js';
 import { refusal, showMessages } from './messages.js';
@@ -106,7 +106,7 @@ function offerOthers(files: Given['files'], mains: string[]): void {
 
 /** Shows the mannequin, which waits to be touched. */
 export async function openExample(): Promise<void> {
-  exampleBytes ??= Uint8Array.from(atob(element('mannequin').textContent), (letter) => letter.charCodeAt(0));
+  exampleBytes ??= embeddedBytes('mannequin');
   offerOthers({}, []);
   await open({ files: { [exampleName]: exampleBytes }, main: exampleName });
   const now = character();

@@ -4,7 +4,7 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Character } from './character.js';
 import { isStill } from './elements.js';
 import { ContactShadow, shadowLayer } from './ground.js';
-import { type BackdropName, makeBackdrop, makeEnvironment, type SurroundingsName } from './studio.js';
+import { type BackdropName, backdropStyle, makeBackdrop, makeEnvironment, type SurroundingsName } from './studio.js';
 
 const dark = matchMedia('(prefers-color-scheme: dark)');
 const boneColour = 0x0072b2;
@@ -29,6 +29,9 @@ export class Stage {
   #characters: Character[] = [];
   #backdrop: BackdropName = 'Soft';
   #colour = '#8899aa';
+  #isTaken = false;
+  #hasShadow = false;
+  #hasDrawn = false;
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.#renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
@@ -54,7 +57,8 @@ export class Stage {
     this.setSkeleton(false);
     this.#characters = characters;
     const [first] = characters;
-    if (!first) return void (this.#shadow.plane.visible = false);
+    this.#hasShadow = first?.hasMesh ?? false;
+    if (!first) return;
     const size = first.box().getSize(new THREE.Vector3());
     this.size = Math.max(size.length(), 1e-6);
     this.#box.makeEmpty();
@@ -64,7 +68,6 @@ export class Stage {
       this.#scene.add(character.object);
       this.#box.union(character.box().clone().translate(character.object.position));
     }
-    this.#shadow.plane.visible = first.hasMesh;
     this.#shadow.fit(this.#box);
     this.#resize();
     if (!keepsView) this.resetView();
@@ -115,6 +118,13 @@ export class Stage {
   setBackdrop(name: BackdropName, colour: string): void {
     this.#backdrop = name;
     this.#colour = colour;
+    this.canvas.style.background = backdropStyle(name, colour);
+    this.#paint();
+  }
+
+  /** Whether the canvas is to be copied. Then the backdrop is in it; else it is below it, where the browser need not draw it again. */
+  set isTaken(isTaken: boolean) {
+    this.#isTaken = isTaken;
     this.#paint();
   }
 
@@ -173,14 +183,17 @@ export class Stage {
       for (const { userData } of this.#ranges.children) character.placeRange(userData['range'], 0.09 * this.size);
     }
     this.#controls.update();
+    // The first picture has no shadow: without a GPU, compiling its shaders takes as long as drawing the rest.
+    this.#shadow.plane.visible = this.#hasShadow && this.#hasDrawn;
     if (this.#shadow.plane.visible) this.#shadow.draw(this.#renderer, this.#scene);
     this.#renderer.render(this.#scene, this.camera);
+    this.#hasDrawn ||= this.#characters.length !== 0;
   }
 
   #paint(): void {
     const { background } = this.#scene;
     if (background instanceof THREE.Texture) background.dispose();
-    this.#scene.background = makeBackdrop(this.#backdrop, this.#colour);
+    this.#scene.background = this.#isTaken ? makeBackdrop(this.#backdrop, this.#colour) : null;
     this.#shadow.strength = this.#backdrop === 'Soft' && dark.matches ? 0.9 : 0.7;
   }
 

@@ -154,9 +154,17 @@ function softBackdrop(): THREE.Texture {
   return texture;
 }
 
-/** What `Scene.background` is for a backdrop; null lets the page through. */
+/** The backdrop as the CSS of an element above the soft one. */
+export function backdropStyle(name: BackdropName, colour: string): string {
+  if (name === 'Soft') return '';
+  return name === 'Transparent' ? 'var(--checks)' : `#${backdropColour(name, colour).getHexString()}`;
+}
+
+const backdropColour = (name: BackdropName, colour: string): THREE.Color => new THREE.Color(name === 'White' ? '#ffffff' : name === 'Black' ? '#000000' : colour);
+
+/** The backdrop as `Scene.background`. */
 export function makeBackdrop(name: BackdropName, colour: string): THREE.Texture | THREE.Color | null {
   if (name === 'Transparent') return null;
   if (name === 'Soft') return softBackdrop();
-  return new THREE.Color(name === 'White' ? '#ffffff' : name === 'Black' ? '#000000' : colour);
+  return backdropColour(name, colour);
 }

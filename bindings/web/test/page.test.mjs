@@ -103,6 +103,7 @@ test('a poster is shown until the first picture, which is like it; the tools are
   await picture('first');
   assert.ok((await drawn()) > 500, 'the character is drawn');
   assert.equal(await tab.$('#poster'), null);
+  assert.equal(await tab.$eval('#open .icon', (icon) => getComputedStyle(icon).visibility), 'visible', 'icons come after it');
   assert.deepEqual(tab.workers(), []);
   // The poster's outline and that of the character, in a picture of the poster's shape.
   const [address] = readFileSync(page, 'latin1').match(/data:image\/webp;base64,[^"]*/);
@@ -250,16 +251,26 @@ test('white does not wash out, and the exposure can be chosen', { skip }, async 
 
 test('looks: surroundings, background, skeleton', { skip }, async () => {
   await select('look');
-  const middle = () => tab.evaluate(() => {
-    bendyPage.stage.draw();
-    const context = Object.assign(document.createElement('canvas'), { width: 8, height: 8 }).getContext('2d');
-    context.drawImage(bendyPage.stage.canvas, 0, 0, 8, 8);
-    return [...context.getImageData(0, 0, 1, 1).data];
-  });
-  await tab.select('#backdrop', 'White');
-  assert.deepEqual(await middle(), [255, 255, 255, 255]);
-  await tab.select('#backdrop', 'Transparent');
-  assert.equal((await middle())[3], 0);
+  /** A corner of a saved picture, and what is below the canvas. */
+  const backdrop = async (name) => {
+    await tab.select('#backdrop', name);
+    await tab.click('#picture');
+    const png = (await downloaded('mannequin.png')).toString('base64');
+    return tab.evaluate(async (address) => {
+      const image = Object.assign(new Image(), { src: address });
+      await image.decode();
+      const context = Object.assign(document.createElement('canvas'), { width: 1, height: 1 }).getContext('2d');
+      context.drawImage(image, 0, 0);
+      const { backgroundColor, backgroundImage } = getComputedStyle(bendyPage.stage.canvas);
+      return [[...context.getImageData(0, 0, 1, 1).data], backgroundColor, backgroundImage.replace(/\(.*/, '')];
+    }, `data:image/png;base64,${png}`);
+  };
+  const clear = 'rgba(0, 0, 0, 0)';
+  assert.deepEqual(await backdrop('White'), [[255, 255, 255, 255], 'rgb(255, 255, 255)', 'none']);
+  assert.deepEqual(await backdrop('Transparent'), [[0, 0, 0, 0], clear, 'repeating-conic-gradient']);
+  const [[, green, , alpha], ...below] = await backdrop('Soft');
+  assert.ok(green > 150 && green < 250 && alpha === 255, 'the gradient is in the picture');
+  assert.deepEqual(below, [clear, 'none']);
   await tab.select('#backdrop', 'Soft');
   for (const name of ['Overcast', 'Sunset', 'Night', 'Studio']) {
     await tab.select('#surroundings', name);
@@ -292,6 +303,18 @@ test('with reduced motion, nothing moves until it is asked to', { skip }, async 
   assert.equal(await still.$eval('#play', (element) => element.getAttribute('aria-label')), 'Play');
   assert.equal(await still.$eval('.handle.inviting', (element) => getComputedStyle(element, '::before').animationName), 'none');
   await still.close();
+});
+
+test('without WebGL 2, the page says so below its poster', { skip }, async () => {
+  const bare = await browser.newPage();
+  await bare.evaluateOnNewDocument(() => {
+    const { getContext } = HTMLCanvasElement.prototype;
+    HTMLCanvasElement.prototype.getContext = function (type, ...rest) { return type.startsWith('webgl') ? null : getContext.call(this, type, ...rest); };
+  });
+  await bare.goto(page.href, { waitUntil: 'domcontentloaded', timeout: 120_000 });
+  await bare.waitForFunction(() => /offers no WebGL 2/.test(document.getElementById('welcome').textContent), { timeout: 120_000 });
+  assert.equal(await bare.$eval('#poster', ({ complete, naturalWidth }) => complete && naturalWidth > 0), true);
+  await bare.close();
 });
 
 test('a source is converted, and what is saved has the bytes of the program', { skip }, async () => {
