@@ -36,13 +36,15 @@ test('the package says whose it is, and has its licence and those of others', ()
   assert.equal(readFileSync(join(web, 'LICENSE'), 'utf8'), readFileSync(join(repository, 'LICENSE'), 'utf8'));
   const notices = readFileSync(join(web, 'NOTICES.txt'), 'utf8');
   for (const name of ['Zstandard', 'meshoptimizer', 'Draco', 'three.js']) assert.ok(notices.includes(`\n${name}\n`), name);
-  assert.ok(description.homepage.startsWith('https://') && description.repository.url.includes(new URL(description.homepage).host));
-  assert.equal(description.repository.directory, 'bindings/web');
+  // The project has no public address: packaging/README.md says where whoever publishes writes it.
+  for (const field of ['homepage', 'repository', 'bugs']) assert.equal(description[field], undefined, field);
   for (const peer of Object.keys(description.peerDependencies)) {
     assert.ok(description.peerDependenciesMeta[peer].optional && description.devDependencies[peer], peer);
   }
   const page = join(web, 'dist/page.html');
-  if (existsSync(page)) assert.match(readFileSync(page, 'utf8'), /<script type="text\/plain" id="licences">\nMIT License/);
+  if (!existsSync(page)) return; // without the tools there is no page
+  const [, licences] = readFileSync(page, 'utf8').match(/<script type="text\/plain" id="licences">\n([^]*?)<\/script>/);
+  assert.equal(licences, `${readFileSync(join(repository, 'LICENSE'), 'utf8')}\n${execFileSync('python3', ['-B', join(repository, 'scripts/notices.py'), 'page'])}`);
 });
 
 /** Compiles a module of TypeScript with a compiler of test/compilers, libraries checked too; returns what it says. */
