@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, beforeEach, test } from 'node:test';
+import axe from 'axe-core';
 import { launch, openTab, serve, skip } from './browser.mjs';
 import { example, repository } from './helpers.mjs';
 
@@ -114,6 +115,44 @@ test('it can be read, and moved by keys', { skip }, async () => {
   assert.ok((await angles()).theta > turned.theta);
   assert.equal(await tab.evaluate(() => viewer.shadowRoot.querySelector('canvas').getAttribute('aria-keyshortcuts') !== null), true);
   assert.deepEqual(problems, []);
+});
+
+test('axe finds nothing: before, while and after it loads, with and without controls, in both colour schemes', { skip }, async () => {
+  await tab.evaluate(axe.source);
+  const check = async (when) => {
+    const { violations, passes } = await tab.evaluate(() => globalThis.axe.run('bendy-viewer', { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] }));
+    assert.deepEqual(violations.flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) => `${id}: ${target}: ${failureSummary}`)), [], when);
+    assert.ok(passes.length > 0, `${when}: axe has seen it`);
+  };
+  const canvas = (name) => tab.evaluate((wanted) => viewer.shadowRoot.querySelector('canvas').getAttribute(wanted), name);
+  await tab.evaluate(() => {
+    globalThis.viewer = document.createElement('bendy-viewer');
+    document.body.append(viewer);
+  });
+  await check('empty');
+  assert.equal(await canvas('aria-busy'), null);
+  await tab.evaluate(() => {
+    globalThis.loaded = new Promise((resolve) => viewer.addEventListener('load', resolve, { once: true }));
+    globalThis.busy = new Promise((resolve) => viewer.addEventListener('progress', () => resolve(viewer.shadowRoot.querySelector('canvas').ariaBusy), { once: true }));
+    Object.assign(viewer, { src: 'mannequin.bendy', poster: 'poster.png', alt: 'A mannequin' });
+  });
+  assert.equal(await tab.evaluate(() => busy), 'true');
+  await tab.evaluate(() => loaded);
+  assert.deepEqual([await canvas('aria-busy'), await canvas('role')], [null, 'img']);
+  await check('shown');
+  await tab.evaluate(() => (viewer.cameraControls = true));
+  assert.deepEqual([await canvas('role'), await canvas('aria-roledescription'), await canvas('tabindex')], ['application', '3D view', '0']);
+  for (const value of ['light', 'dark']) {
+    await tab.emulateMediaFeatures([{ name: 'prefers-color-scheme', value }]);
+    await check(`with controls, ${value}`);
+  }
+  await tab.evaluate(() => {
+    globalThis.failed = new Promise((resolve) => viewer.addEventListener('error', resolve, { once: true }));
+    viewer.src = 'none.bendy';
+  });
+  await tab.evaluate(() => failed);
+  assert.equal(await canvas('aria-busy'), null);
+  await check('after a failure');
 });
 
 test('attributes change what is shown', { skip }, async () => {

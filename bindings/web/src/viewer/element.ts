@@ -72,6 +72,7 @@ export class BendyViewerElement extends BaseElement {
     this.#poster.hidden = true;
     shadow.append(this.#canvas, this.#poster);
     this.#describe();
+    this.#control();
   }
 
   get src(): string {
@@ -176,7 +177,6 @@ export class BendyViewerElement extends BaseElement {
   #makeCanvas(): HTMLCanvasElement {
     const canvas = document.createElement('canvas');
     canvas.part.add('canvas');
-    canvas.setAttribute('role', 'img');
     return canvas;
   }
 
@@ -203,6 +203,9 @@ export class BendyViewerElement extends BaseElement {
 
   #control(): void {
     const has = this.cameraControls;
+    // Screen readers pass keys to an application only.
+    this.#set('role', has ? 'application' : 'img', this.#canvas);
+    this.#set('aria-roledescription', has ? '3D view' : null, this.#canvas);
     this.#set('tabindex', has ? '0' : null, this.#canvas);
     this.#set('aria-keyshortcuts', has ? orbitKeys : null, this.#canvas);
     if (this.#stage !== null) this.#stage.orbit.enabled = has;
@@ -231,6 +234,7 @@ export class BendyViewerElement extends BaseElement {
   #load(): void {
     if (!this.#isNear || this.#wanted !== null) return;
     const wanted = (this.#wanted = {});
+    this.#set('aria-busy', this.src === '' ? null : 'true', this.#canvas);
     if (this.src === '') return this.#show(null);
     const isCurrent = (): boolean => this.#wanted === wanted;
     const progress = ({ loaded, total }: ViewerProgress): void => {
@@ -238,11 +242,14 @@ export class BendyViewerElement extends BaseElement {
     };
     new BendyLoader().loadAsync(this.src, progress).then(
       (character) => {
-        if (isCurrent()) this.#show(character);
-        else character.model.dispose();
+        if (!isCurrent()) return character.model.dispose();
+        this.#set('aria-busy', null, this.#canvas);
+        this.#show(character);
       },
       (error: unknown) => {
-        if (isCurrent()) this.#fail(error);
+        if (!isCurrent()) return;
+        this.#set('aria-busy', null, this.#canvas);
+        this.#fail(error);
       },
     );
   }
