@@ -3,6 +3,7 @@
 #   aarch64   Debian's packages for that processor, unpacked
 #   windows   zstd, meshoptimizer, draco and googletest, from Debian's source packages, by mingw-w64
 #   static    zstd, meshoptimizer and draco, from the same sources, as static libraries for this machine
+#   static-aarch64  the same for 64-bit ARM
 #   fuzzers   the same, by clang, with what AddressSanitizer and the fuzzer need
 #   web       zstd and meshoptimizer, from the same sources, for WebAssembly with SIMD; web-plain: without
 #   web-tools zstd, meshoptimizer, draco, zlib and double-conversion, from the same sources, for WebAssembly
@@ -10,7 +11,7 @@
 # of other processors and of sources stays in build/cross/apt.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-system=${1:?usage: scripts/cross_dependencies.sh windows|aarch64|static|fuzzers|web|web-plain|web-tools}
+system=${1:?usage: scripts/cross_dependencies.sh windows|aarch64|static|static-aarch64|fuzzers|web|web-plain|web-tools}
 here=$PWD/build/cross
 root=$here/$system/libraries
 versions=$(cat "$0" cmake/"$system".cmake cmake/emscripten.cmake; dpkg-query -W libzstd-dev libmeshoptimizer-dev libdraco-dev libgtest-dev libglm-dev \
@@ -49,10 +50,14 @@ fetch_aarch64() {
 }
 
 build_library() { # build_library NAME SOURCES [CMAKE-OPTION...]: a library into the root
-    local build=$here/$system/build_$1 source=$2
+    local build=$here/$system/build_$1 source=$2 launcher=()
     shift 2
+    if [[ $system != web* ]] && command -v ccache >/dev/null; then
+        export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+        launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    fi
     cmake -S "$source" -B "$build" -G Ninja --toolchain "$PWD/cmake/$system.cmake" -DCMAKE_BUILD_TYPE=Release \
-        -DCMAKE_INSTALL_PREFIX="$root/usr" -DBUILD_SHARED_LIBS=OFF "$@" >"$build.log" 2>&1 || { cat "$build.log" >&2; exit 1; }
+        -DCMAKE_INSTALL_PREFIX="$root/usr" -DBUILD_SHARED_LIBS=OFF "${launcher[@]}" "$@" >"$build.log" 2>&1 || { cat "$build.log" >&2; exit 1; }
     cmake --build "$build" --target install --parallel "$(nproc)" >>"$build.log" 2>&1 || { tail -n 50 "$build.log" >&2; exit 1; }
 }
 
@@ -99,6 +104,11 @@ fetch_web-tools() {
 fetch_static() {
     build_codecs
     cp /usr/lib/x86_64-linux-gnu/libz.a "$root/usr/lib/"
+}
+
+fetch_static-aarch64() {
+    build_codecs
+    (cd "$here/static-aarch64" && apt-get "${apt[@]}" download zlib1g-dev:arm64 && dpkg-deb -x zlib1g-dev_*.deb "$root")
 }
 
 fetch_fuzzers() {

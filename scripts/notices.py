@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Prints the licences of the libraries that an artefact contains, or compares their list with what was built.
 
-    scripts/notices.py npm|page|wheel|static                          the notices, for the artefact
+    scripts/notices.py npm|page|wheel|static|static-aarch64|static-windows    the notices, for the artefact
     scripts/notices.py ARTEFACT --check [BUILD:TARGET... | FILE...]   fails if they and the list differ
 
 packaging/notices/notices.json lists the libraries, beside the texts of their licences. One of the "system" is contained where it is linked
-statically only, and one without a licence needs no notice. A BUILD folder of ninja tells which headers
+statically only, and one without a licence needs no notice. "debian" or "npm" is the package that has it, for scripts/release/sbom.py. A BUILD folder of ninja tells which headers
 and libraries went into a TARGET; a FILE lists the paths of sources of JavaScript, one a line.
 """
 
@@ -18,7 +18,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 TEXTS = ROOT / "packaging/notices"
 LIBRARIES = json.loads((TEXTS / "notices.json").read_text(encoding="utf-8"))
-ARTEFACTS = ("npm", "page", "wheel", "static")
+ARTEFACTS = ("npm", "page", "wheel", "static", "static-aarch64", "static-windows")
 
 
 def notices(artefact):
@@ -39,7 +39,7 @@ def ninja(build, *words):
 def used_by(build, target):
     """The headers and libraries of a target that are not the project's own, as absolute paths."""
     inputs = ninja(build, "inputs", target).split("\n")
-    objects = [path for path in inputs if path.endswith(".o")]
+    objects = [path for path in inputs if path.endswith((".o", ".obj"))]
     headers = [line.strip() for line in ninja(build, "deps", *objects).split("\n") if line.startswith("    ")] if objects else []
     paths = {str((Path(build) / path).resolve()) for path in headers + inputs}
     return {path for path in paths if not is_own(path)}
@@ -74,7 +74,7 @@ def check(artefact, sources):
             problems.append(f"{path} belongs to no library of packaging/notices/notices.json")
         for library in names:
             present.add(library["name"])
-            is_shared = artefact != "static" and (library.get("system") or re.search(r"\.so[.\d]*$", path))
+            is_shared = not artefact.startswith("static") and (library.get("system") or re.search(r"\.so[.\d]*$", path))
             if artefact not in library["in"] and not is_shared:
                 problems.append(f"{artefact} contains {library['name']}, which packaging/notices/notices.json does not say: {path}")
     for library in LIBRARIES:
