@@ -53,13 +53,13 @@ types:
           header.id == "LINK" or header.id == "SAME" or header.id == "SURF" or header.id == "EXTN" or
           header.id == "NAME" or header.id == "EXTR" or header.id == "MORE" or header.id == "REST" or
           header.id == "LIMT" or header.id == "PULL" or header.id == "POLY" or header.id == "JNTS" or
-          header.id == "JNAM" or header.id == "KINF" or header.id == "VINF" or header.id == "PALT" or
-          header.id == "TINF" or header.id == "FNAM" or header.id == "GRID" or header.id == "NLST" or
-          header.id == "POSI" or header.id == "NORM" or header.id == "TANG" or header.id == "TEXC" or
-          header.id == "COLR" or header.id == "BONE" or header.id == "WGHT" or header.id == "VALS" or
-          header.id == "INDX" or header.id == "LODD" or header.id == "CINF" or header.id == "TRAK" or
-          header.id == "PACK" or header.id == "PLAY" or header.id == "TIME" or header.id == "KEYV" or
-          header.id == "MARK" or header.id == "CURV"
+          header.id == "JNAM" or header.id == "ROLE" or header.id == "KINF" or header.id == "VINF" or
+          header.id == "PALT" or header.id == "TINF" or header.id == "FNAM" or header.id == "GRID" or
+          header.id == "NLST" or header.id == "POSI" or header.id == "NORM" or header.id == "TANG" or
+          header.id == "TEXC" or header.id == "COLR" or header.id == "BONE" or header.id == "WGHT" or
+          header.id == "VALS" or header.id == "INDX" or header.id == "LODD" or header.id == "CINF" or
+          header.id == "TRAK" or header.id == "PACK" or header.id == "PLAY" or header.id == "TIME" or
+          header.id == "KEYV" or header.id == "MARK" or header.id == "CURV"
       kind:
         value: 'not is_named ? "" : header.codec == 0 ? header.id : is_known_leaf ? "coded" : ""'
         doc: "what the payload is read as"
@@ -96,6 +96,7 @@ types:
             '"POLY"': submesh_record
             '"JNTS"': joints
             '"JNAM"': jnam_list
+            '"ROLE"': role_list
             '"KINF"': chain_record
             '"VINF"': mesh_record
             '"PALT"': palette
@@ -141,6 +142,9 @@ types:
       - {id: record, type: joints_record}
       - {id: rests, type: rest_record, size: 52, repeat: expr, repeat-expr: record.joints, doc: "rest transform of each joint, all 52 bytes"}
       - {id: ranges, type: joint_submesh, repeat: expr, repeat-expr: record.submeshes, doc: "a joint, and a submesh that belongs to it"}
+  role_list:
+    seq:
+      - {id: roles, type: role_record, size: 8, repeat: eos, doc: "what joints are"}
   jnam_list:
     seq:
       - {id: names, type: strz, repeat: eos, doc: "a name for each joint"}
@@ -400,6 +404,11 @@ types:
       - {id: translation_max, type: f4, repeat: expr, repeat-expr: 3, doc: "metres from the rest translation, along X, Y, Z of the frame; infinity: free"}
       - {id: stiffness, type: f4, repeat: expr, repeat-expr: 3, doc: "0 to 1 about X, Y, Z of the frame: how much an IK solver resists turning about the axis; 1 locks it"}
       - {id: preferred, type: f4, repeat: expr, repeat-expr: 3, doc: "radians about X, Y, Z of the frame: where a solver restarts when it is stuck, and which way a straight chain bends"}
+  role_record:
+    seq:
+      - {id: joint, type: u4, doc: "joint number; ascending"}
+      - {id: role, type: u2, enum: role, doc: "what the joint is: a value of the list of roles, 1 or more"}
+      - {id: place, type: u2, doc: "for a chain, the joint's place in it, ascending from the body outwards; otherwise 0"}
   chain_weight_record:
     seq:
       - {id: chain, type: u4, doc: "IKCH number in the object"}
@@ -534,6 +543,7 @@ enums:
   constraint_model: {0: free, 1: locked, 2: hinge, 3: swing_twist_ellipse, 4: swing_twist_pyramid, 5: euler_box, 6: largest_angle}
   euler_order: {0: xyz, 1: xzy, 2: yxz, 3: yzx, 4: zxy, 5: zyx}
   constraint_scope: {0: every_pose, 1: ik_only, 2: all_but_ik}
+  role: {0: none, 1: hips, 2: spine, 3: chest, 4: upper_chest, 5: neck, 6: head, 7: left_eye, 8: right_eye, 9: jaw, 10: left_upper_leg, 11: left_lower_leg, 12: left_foot, 13: left_toes, 14: right_upper_leg, 15: right_lower_leg, 16: right_foot, 17: right_toes, 18: left_shoulder, 19: left_upper_arm, 20: left_lower_arm, 21: left_hand, 22: right_shoulder, 23: right_upper_arm, 24: right_lower_arm, 25: right_hand, 26: left_thumb_metacarpal, 27: left_thumb_proximal, 28: left_thumb_distal, 29: left_index_proximal, 30: left_index_intermediate, 31: left_index_distal, 32: left_middle_proximal, 33: left_middle_intermediate, 34: left_middle_distal, 35: left_ring_proximal, 36: left_ring_intermediate, 37: left_ring_distal, 38: left_little_proximal, 39: left_little_intermediate, 40: left_little_distal, 41: right_thumb_metacarpal, 42: right_thumb_proximal, 43: right_thumb_distal, 44: right_index_proximal, 45: right_index_intermediate, 46: right_index_distal, 47: right_middle_proximal, 48: right_middle_intermediate, 49: right_middle_distal, 50: right_ring_proximal, 51: right_ring_intermediate, 52: right_ring_distal, 53: right_little_proximal, 54: right_little_intermediate, 55: right_little_distal, 56: spine_chain, 57: neck_chain, 58: tail, 59: left_front_leg, 60: right_front_leg, 61: left_hind_leg, 62: right_hind_leg, 63: left_wing, 64: right_wing}
   solver: {0: any, 1: pull, 2: two_bone, 3: ccd, 4: fabrik, 5: aim, 6: least_squares}
   topology: {0: triangles, 1: lines, 2: points}
   curve_target: {0: nothing, 1: joint, 2: material, 3: mesh, 4: texture}

@@ -222,6 +222,11 @@ def joint_rest(joint, translation):
             f32([0, 0, 0], '  shear 0 0 0')]
 
 
+def joint_role(joint, role, place, word):
+    """A row of ROLE."""
+    return [u32(joint, 'joint %d' % joint), u16(role, '  role %d (%s)' % (role, word)), u16(place, '  place %d' % place)]
+
+
 def limit(model, frame, rotation, scope=0, flags=0, order=0, soft_zone=0, translation=((-INFINITE, INFINITE),) * 3,
           stiffness=(0, 0, 0), preferred=(0, 0, 0)):
     """`rotation` and `translation` are (minimum, maximum) of X, Y, Z; rotation in degrees, None free."""
@@ -449,6 +454,7 @@ def make_every_chunk():
             leaf('JNTS', u32(2, 'joints 2'), u32(0, 'submeshes 0'), u32([0, 0], 'reserved'),
                  *joint_rest(0, [0, 0, 0]), *joint_rest(1, [0, 1, 0])),
             leaf('JNAM', raw(b'root\0', '"root"'), raw(b'tip\0', '"tip"')),
+            leaf('ROLE', *joint_role(0, 1, 0, 'hips'), *joint_role(1, 58, 0, 'tail')),
             box('IKCH', name('body'), chain_info(0, 1, solver=3, tip_offset=[0, 1, 0]), extras('{"by":"hand"}')),
             box('VECT', name('body'), mesh_info(3, 0), extras('{"unit":"m"}'),
                 palette([(0, identity), (1, one_down)]),

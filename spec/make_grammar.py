@@ -286,7 +286,8 @@ def imhex_cases():
 
 
 def write_imhex():
-    enums = ["enum %s : u8 { %s };" % (name, ", ".join(f"{imhex_name(value)} = {k}" for k, value in enumerate(values)))
+    types = {field.values: IMHEX[field.type] for record in RECORDS.values() for field in record.fields if field.values}
+    enums = ["enum %s : %s { %s };" % (name, types[name], ", ".join(f"{imhex_name(value)} = {k}" for k, value in enumerate(values)))
              for name, values in VALUES.items()]
     return {
         "CONTAINERS": either([chunk.id for chunk in CHUNKS if chunk.shape == "container"], "||", " " * 12),

@@ -40,7 +40,7 @@ RECORD_OF = {'VERS': 'VersionRecord', 'BNDS': 'BoundRecord', 'SAMP': 'SamplerRec
              'MARK': 'MarkersRecord', 'CURV': 'CurveRecord'}
 STREAMS = ('POSI', 'NORM', 'TANG', 'TEXC', 'COLR', 'BONE', 'WGHT', 'VALS', 'INDX')
 RECORD_OF.update(dict.fromkeys(STREAMS, 'StreamRecord'))
-ROWS = {('TRAK', 'TrackRecord'): 0, ('PLAY', 'PlayRecord'): 0, ('JNTS', 'RestRecord'): 16, ('LODD', 'MeshCollapseRecord'): 16,
+ROWS = {('TRAK', 'TrackRecord'): 0, ('PLAY', 'PlayRecord'): 0, ('ROLE', 'RoleRecord'): 0, ('JNTS', 'RestRecord'): 16, ('LODD', 'MeshCollapseRecord'): 16,
         ('MARK', 'MarkerRecord'): 8}  # where a table starts
 
 # What a field holds that no description sets; all others are 0. These are the pages' "none", "free" and "no change".

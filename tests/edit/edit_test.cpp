@@ -208,6 +208,24 @@ TEST(Markers, AreStrippedAlone) {
     EXPECT_EQ(stripped(marked(), Part::markers), stripped(test::sample_file(), Part::unknown));
 }
 
+TEST(Roles, GoWithTheirJoints) {
+    Node root = test::sample();
+    const std::vector<RoleRecord> roles{{0, static_cast<std::uint16_t>(Role::hips), 0},
+                                        {1, static_cast<std::uint16_t>(Role::spine), 0},
+                                        {3, static_cast<std::uint16_t>(Role::tail), 2}};
+    at(root, "HEAD/OBJE").children.push_back(test::make_leaf(FourCC("ROLE"), test::bytes_of_all(roles)));
+    Log log;
+    const Edited part = extract(test::to_file(root), "tail*", log);  // joint 3; joint 0 is above it
+    ASSERT_TRUE(part) << part.error().message;
+    const Loaded loaded(*part);
+    const std::span<const RoleRecord> kept = loaded.document.objects.front().roles;
+    ASSERT_EQ(kept.size(), 2u);
+    EXPECT_EQ(kept[0].joint, 0u);
+    EXPECT_EQ(kept[1].joint, 1u);
+    EXPECT_EQ(static_cast<Role>(kept[1].role), Role::tail);
+    EXPECT_EQ(kept[1].place, 2u);
+}
+
 TEST(Names, Matches) {
     EXPECT_TRUE(matches("a*c", "abbc"));
     EXPECT_TRUE(matches("*", ""));

@@ -85,6 +85,13 @@ Provocation curved(ErrorCode code, std::array<float, 2> times, std::uint8_t comp
     });
 }
 
+/// Roles in the sample, which has four joints.
+Provocation with_roles(ErrorCode code, const std::vector<RoleRecord>& roles) {
+    return edited(code, "HEAD/OBJE/ROLE", [roles](Node& root) {
+        at(root, "HEAD/OBJE").children.push_back(make_leaf(FourCC("ROLE"), bytes_of_all(roles)));
+    });
+}
+
 /// A leaf under zstd with nothing after its header.
 void put_encoded(Node& leaf, const CodecHeader& header) {
     leaf.flags = 0x0100;
@@ -199,6 +206,9 @@ const std::vector<Provocation> kProvocations{
     edited(
         ErrorCode::kChainWeightRepeated, "HEAD/OBJE/SKIN/PIVO/PULL[1]",
         [](Node& root) { at(root, "HEAD/OBJE/SKIN/PIVO").children.push_back(at(root, "HEAD/OBJE/SKIN/PIVO/PULL")); }),
+    with_roles(ErrorCode::kRoleOrder, {{1, 1, 0}, {0, 2, 0}}),
+    with_roles(ErrorCode::kRolePlace, {{0, 1, 1}}),
+    with_roles(ErrorCode::kRoleRepeated, {{0, 1, 0}, {1, 1, 0}}),
     record<ChainWeightRecord>(ErrorCode::kFractionRange, "HEAD/OBJE/SKIN/PIVO/PULL",
                               [](auto& chain_weight) { chain_weight.weight = 1.5f; }),
     record<ChainRecord>(ErrorCode::kBelowZero, "HEAD/OBJE/IKCH[1]/KINF", [](auto& chain) { chain.stretch = -1.0f; }),

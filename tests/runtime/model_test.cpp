@@ -106,6 +106,19 @@ TEST(Model, HoldsItsClipsMarkers) {
     EXPECT_EQ(markers[2].seconds, 1.0f);
 }
 
+TEST(Model, HoldsRolesInPlace) {
+    EXPECT_TRUE(Owned(test::sample_file())->roles().empty());
+    test::Node file = test::sample();
+    const std::vector<RoleRecord> roles{{0, static_cast<std::uint16_t>(Role::hips), 0},
+                                        {3, static_cast<std::uint16_t>(Role::tail), 0}};
+    test::at(file, "HEAD/OBJE").children.push_back(test::make_leaf(FourCC("ROLE"), test::bytes_of_all(roles)));
+    const Owned model(test::to_file(file));
+    ASSERT_EQ(model->roles().size(), 2u);
+    EXPECT_EQ(model->roles()[0].joint, 0u);
+    EXPECT_EQ(model->roles()[1].joint, 3u);
+    EXPECT_EQ(static_cast<Role>(model->roles()[1].role), Role::tail);
+}
+
 // --- draws
 
 TEST(Model, DrawsMeanTheMaterialsOfTheWholeFile) {

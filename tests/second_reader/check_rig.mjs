@@ -1,4 +1,5 @@
-// Rules of joints, constraints and IK chains: constraints.md and the pages of REST, LIMT, PULL, KINF, JNTS, JNAM.
+// Rules of joints, constraints and IK chains: constraints.md and the pages of REST, LIMT, PULL, KINF, JNTS, JNAM,
+// ROLE.
 
 import { all_finite, all_zero, is_unit, is_utf8, kNone } from './numbers.mjs';
 import { check_material } from './check_file.mjs';
@@ -182,6 +183,30 @@ function check_names(file, object, joints) {
     if (zeros !== joints.length || (payload.length > 0 && payload[payload.length - 1] !== 0)) file.add('COUNT_MISMATCH', chunk);
 }
 
+/** ROLE.md. */
+const kLastBone = 55;
+const kLastRole = 64;
+
+function check_roles(file, object, joints) {
+    const chunk = file.child(object, 'ROLE');
+    const payload = file.payload(chunk);
+    if (!payload) return;
+    if (payload.length % 8 !== 0) {
+        file.add('RECORD_SIZE', chunk);
+        return;
+    }
+    const { roles } = file.body(chunk);
+    const codes = roles.map(({ joint, role, place }) => {
+        if (role < 1 || role > kLastRole) return 'ENUM_RANGE';
+        if (joint >= joints.length) return 'JOINT_RANGE';
+        return role <= kLastBone && place !== 0 ? 'ROLE_PLACE' : null;
+    });
+    for (const code of codes) if (code) file.add(code, chunk);
+    if (codes.some((code) => code)) return;
+    if (roles.some(({ joint }, k) => k > 0 && joint <= roles[k - 1].joint)) file.add('ROLE_ORDER', chunk);
+    if (new Set(roles.map(({ role, place }) => `${role} ${place}`)).size < roles.length) file.add('ROLE_REPEATED', chunk);
+}
+
 /** Everything about an object's joints but their polygons. Gives { joints, table }. */
 export function check_rig(file, object) {
     const joints = number_joints(file, object);
@@ -190,6 +215,7 @@ export function check_rig(file, object) {
     const has_table = file.has(object, 'JNTS');
     const table = check_joint_table(file, object, joints);
     check_names(file, object, joints);
+    check_roles(file, object, joints);
     const chains = file.children(object, 'IKCH').map((chain) => check_chain(file, chain, joints));
     for (const joint of joints) {
         const pivot = file.child(joint.chunk, 'PIVO');

@@ -554,11 +554,11 @@ def check_hexpat(check, chunks, records):
     name = 'spec/bendy.hexpat'
     text = check.page('bendy.hexpat')
     enums, kinds = {}, {'float': 'f32', 'char': 'u8'}
-    for enum, body in re.findall(r'^enum (\w+) : u8 \{ ([^}]*) \};$', text, re.MULTILINE):
+    for enum, kind, body in re.findall(r'^enum (\w+) : (u8|u16) \{ ([^}]*) \};$', text, re.MULTILINE):
         values = re.findall(r'(\w+) = (\d+)', body)
         check.same(name, 'values of ' + enum, [value for _, value in values], [str(k) for k in range(len(values))])
         enums[snake(enum)] = [word.rstrip('_') for word, _ in values]
-        kinds[enum] = 'u8'
+        kinds[enum] = kind
     check_grammar_enumerations(check, name, enums)
     found = {}
     for struct, body in re.findall(r'^struct (\w+Record) \{\n([^}]*)\};$', text, re.MULTILINE):

@@ -301,6 +301,10 @@ std::span<const Constraint> Model::constraints() const {
     return data_->constraints;
 }
 
+std::span<const JointRole> Model::roles() const {
+    return data_->object.roles;
+}
+
 std::span<const Chain> Model::chains() const {
     return data_->object.chains;
 }

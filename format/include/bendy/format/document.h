@@ -7,9 +7,11 @@
 #include <bendy/format/material.h>
 #include <bendy/format/mesh.h>
 #include <bendy/format/public.h>
+#include <bendy/format/role.h>
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +22,7 @@ struct ObjectView {
     std::uint32_t chunk = 0;
     std::string_view name;
     SkeletonView skeleton;
+    std::span<const RoleRecord> roles;  ///< ROLE, in place; ascending by joint
     std::vector<ChainView> chains;
     std::vector<MeshView> meshes;
     std::optional<CollapseView> collapse;  ///< LODD

@@ -111,6 +111,13 @@ struct ChainWeightRecord {
     float weight = 1.0f;
 };
 
+/// ROLE: what a joint is in the body.
+struct RoleRecord {
+    std::uint32_t joint = 0;
+    std::uint16_t role = 0;  ///< a Role
+    std::uint16_t place = 0;
+};
+
 struct ChainRecord {
     std::uint32_t start = 0;
     std::uint32_t effector = 0;
@@ -292,7 +299,8 @@ inline constexpr auto kShownNames = kValueNames<Values>;
     inline constexpr auto kShownNames<Values> = std::to_array<std::string_view>({__VA_ARGS__}); \
     static_assert(kShownNames<Values>.size() == kValueNames<Values>.size());
 #include <bendy/format/records.def>
-inline constexpr unsigned kMagFilters = 3;  ///< values of Filter without mipmaps
+inline constexpr Role kFirstChainRole = Role::spine_chain;  ///< from here on, a role may have several joints
+inline constexpr unsigned kMagFilters = 3;                  ///< values of Filter without mipmaps
 
 /// Bits of ConstraintRecord::flags and ChainRecord::flags.
 inline constexpr std::uint8_t kApproximated = 1;  ///< the source contains more than the record can express, or differs

@@ -24,6 +24,7 @@ namespace BENDY_PUBLIC bendy {
 
 // The format's views are the runtime's data: they refer to the mapped file.
 using Chain = ChainView;
+using JointRole = RoleRecord;
 using Clip = ClipView;
 using Mesh = MeshView;
 using Material = MaterialView;
@@ -109,6 +110,9 @@ public:
     [[nodiscard]] const CollapseView* collapse() const;
     /// The submeshes of each joint: for hit tests, severed limbs, culling.
     [[nodiscard]] std::span<const SubmeshView> joint_submeshes() const;
+
+    /// What joints are in the body (hips, left upper leg, ...), ordered by joint; empty if the file does not say it.
+    [[nodiscard]] std::span<const JointRole> roles() const;
 
     /// The joints' constraints, ordered by joint.
     [[nodiscard]] std::span<const Constraint> constraints() const;

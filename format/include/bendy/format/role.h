@@ -1,0 +1,18 @@
+#pragma once
+
+#include <bendy/format/error.h>
+#include <bendy/format/public.h>
+#include <bendy/format/records.h>
+
+#include <cstdint>
+#include <span>
+
+// ROLE: what joints are in the body: hips, left upper leg, the third joint of the tail.
+namespace BENDY_PUBLIC bendy {
+
+/// Reads the ROLE of an object, in place, and checks it: joints in range and ascending, known roles, each role and
+/// place given once. Returns nothing if there is none, or if it has a fault.
+std::span<const RoleRecord> read_roles(const ChunkTree& tree, std::uint32_t object, std::uint32_t joints,
+                                       Faults& faults);
+
+}  // namespace bendy
