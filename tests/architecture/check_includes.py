@@ -36,6 +36,7 @@ ROOMS = {
         "play": {"math", "plan", "kernels", "model", "pose"},
         "ik": {"math", "plan", "kernels", "model", "pose"},
         "skin": {"math", "plan", "kernels", "model", "pose"},
+        "retarget": {"math", "plan", "model", "pose", "ik"},
     },
     "converter": {
         "scene": set(),

@@ -36,6 +36,7 @@
 #include <bendy/runtime/morph_targets.h>
 #include <bendy/runtime/playback.h>
 #include <bendy/runtime/pose.h>
+#include <bendy/runtime/retarget.h>
 #include <bendy/runtime/root_motion.h>
 #include <bendy/runtime/sample.h>
 #include <bendy/runtime/skin.h>

@@ -1,5 +1,6 @@
 #include <bendy/runtime/constrain.h>
 
+#include "constrain_joint.h"
 #include "math/nearest_rotation.h"
 #include "math/rotation.h"
 
@@ -46,21 +47,23 @@ glm::vec3 clamp_translation(const Constraint& constraint, const JointTransform& 
     return legal == d ? translation : glm::vec3(glm::dvec3(rest.translation) + axes * legal);
 }
 
+double constrain_joint(Pose& pose, const Constraint& constraint) {
+    const JointTransform& rest = pose.model().joints()[constraint.joint].rest;
+    JointTransform joint = pose.local(constraint.joint);
+    const glm::dquat R = to_constraint_space(constraint, rest.rotation, joint.rotation);
+    const glm::dquat legal = clamp_rotation(constraint, R);
+    const double angle = angle_between(legal, R);
+    const bool is_outside = angle > kRounding;
+    if (is_outside) joint.rotation = from_constraint_space(constraint, rest.rotation, legal);
+    if (constraint.limits_translation) joint.translation = clamp_translation(constraint, rest, joint.translation);
+    if (is_outside || constraint.limits_translation) pose.set_local(constraint.joint, joint);
+    return is_outside ? angle : 0.0;
+}
+
 void constrain(Pose& pose) {
     const Model& model = pose.model();
-    const auto constraints = model.constraints();
-    if (constraints.empty()) return;
-    const std::span<const Joint> joints = model.joints();
-    for (const Constraint& constraint : constraints) {
-        if (model.constraint(constraint.joint) != &constraint) continue;
-        const JointTransform& rest = joints[constraint.joint].rest;
-        JointTransform joint = pose.local(constraint.joint);
-        const glm::dquat R = to_constraint_space(constraint, rest.rotation, joint.rotation);
-        const glm::dquat legal = clamp_rotation(constraint, R);
-        if (angle_between(legal, R) > kRounding)
-            joint.rotation = from_constraint_space(constraint, rest.rotation, legal);
-        if (constraint.limits_translation) joint.translation = clamp_translation(constraint, rest, joint.translation);
-        pose.set_local(constraint.joint, joint);
+    for (const Constraint& constraint : model.constraints()) {
+        if (model.constraint(constraint.joint) == &constraint) constrain_joint(pose, constraint);
     }
 }
 

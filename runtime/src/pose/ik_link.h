@@ -10,6 +10,9 @@
 
 namespace bendy {
 
+/// Links of an arm or a leg, which retargeting moves whether the model has a chain for it or not.
+inline constexpr std::uint32_t kLimbLinks = 3;
+
 /// A joint of a chain while an IK solver works on it; a PoseState has enough for its model's longest chain, so that
 /// reaching allocates nothing. Rotations and bones are in the space of the start's parent, lengths in chain lengths.
 struct IkLink {

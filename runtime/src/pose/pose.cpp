@@ -12,7 +12,7 @@ PoseState::PoseState(const Model& from)
       data(&ModelData::of(model)),
       morph_weights(from.morph_target_count()),
       active_targets(data->most_targets),
-      ik_links(data->longest_chain),
+      ik_links(std::max(data->longest_chain, kLimbLinks)),
       palette(std::max(data->largest_palette, 1u)) {
     data->make_plans();
     is_exact = !data->pose_plan->fits_floats;

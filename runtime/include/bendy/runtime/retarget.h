@@ -1,0 +1,134 @@
+#pragma once
+
+#include <bendy/format/public.h>
+#include <bendy/format/records.h>
+#include <bendy/format/result.h>
+#include <bendy/runtime/call_error.h>
+#include <bendy/runtime/pose.h>
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace bendy {
+
+struct RetargetPlan;  // internal
+
+}  // namespace bendy
+
+// Retargeting: the pose of one character on another one of different build. What corresponds is known from the joints'
+// roles, not from their names; the rest poses may differ (arms out or down), face other ways and have other sizes.
+namespace BENDY_PUBLIC bendy {
+
+/// What the two rest poses have in common.
+enum class RestPoses : std::uint8_t {
+    /// Nothing: they are measured. A limb gets the direction that it has in the source.
+    measured,
+    /// Both show the same pose, whatever small differences there are in the directions of limbs, as VRM demands. Joints
+    /// turn exactly as in the source, and the hips' travel is scaled by the hips' height.
+    alike,
+};
+
+struct RetargetOptions {
+    RestPoses rest_poses = RestPoses::measured;
+    bool obey_constraints = true;  ///< of the target
+    /// Moves the feet, while they touch the ground, as far as the source's feet move, times the length of the legs. Has
+    /// no effect on legs with joints between hip, knee and ankle that have no IK chain.
+    bool plants_feet = true;
+};
+
+/// Why two models cannot be retargeted.
+struct RetargetError {
+    enum class Reason : std::uint8_t {
+        no_roles,       ///< the model does not say what its joints are
+        missing_roles,  ///< some of the joints that are needed have no role
+        no_size,        ///< the legs have no length, or a number is not finite
+    };
+    Reason reason = Reason::no_roles;
+    bool is_source = false;     ///< whose fault it is: the source's or the target's
+    std::vector<Role> missing;  ///< for missing_roles
+};
+
+/// Says what is missing and what to write in the rig file. Allocates.
+std::string error_text(const RetargetError& error);
+
+/// Two feet, with two points of contact each.
+enum class Contact : std::uint8_t { left_heel, left_toes, right_heel, right_toes };
+inline constexpr std::size_t kContacts = 4;
+/// How firmly each of them stands on the ground: 0 in the air, 1 on the ground.
+using ContactWeights = std::array<float, kContacts>;
+
+/// What a character remembers from one frame to the next: where its feet stand. Make a new one where the motion jumps
+/// (another clip, a seek).
+struct RetargetState {
+    struct Stand {
+        glm::vec3 offset{0.0f};  ///< metres, target: from where the source's point would be, in the foot's heading
+        float weight = 0.0f;     ///< of the last frame
+    };
+    std::array<Stand, kContacts> stands{};  ///< by Contact
+};
+
+/// What had to give way in a frame.
+struct Retargeted {
+    float turned = 0.0f;  ///< radians: most that a constraint turned a joint away from where it was to be
+    std::uint32_t turned_joint = kNone;  ///< of the target
+    float missed = 0.0f;                 ///< metres: most that a hand or foot is away from where it was to be
+    std::uint32_t missed_joint = kNone;
+    float lowered = 0.0f;       ///< metres: by how much the hips were lowered so that the feet reach the ground
+    ContactWeights contacts{};  ///< as given or, otherwise, as found
+};
+
+/// How the poses of one model become poses of another. Making one allocates; retargeting with it does not. Contains
+/// work memory, so each thread needs one of its own (a copy will do).
+///
+/// Joints with a role turn as those of the source do, also where the two have different numbers of joints in the spine
+/// or the neck. Joints and morph targets with equal names and no role come along, such as props and faces. All others
+/// keep their rest relative to their parent. Limbs keep the target's lengths; the hips' travel is scaled by the length
+/// of the legs.
+class Retarget {
+public:
+    /// Both models need the roles of VRM's required bones except the spine: hips, head, upper and lower arms and legs,
+    /// hands, feet.
+    static Result<Retarget, RetargetError> make(const Model& source, const Model& target,
+                                                const RetargetOptions& options = {});
+    Retarget(const Retarget& other);
+    Retarget(Retarget&& other) noexcept;
+    Retarget& operator=(const Retarget& other);
+    Retarget& operator=(Retarget&& other) noexcept;
+    ~Retarget();
+
+    [[nodiscard]] const Model& source() const;
+    [[nodiscard]] const Model& target() const;
+    /// The target's size as a multiple of the source's, by the length of the legs.
+    [[nodiscard]] float scale() const;
+    /// For each joint of the target, the source's joint that turns it, or kNone. Where two joints do, the nearer one.
+    [[nodiscard]] std::span<const std::uint32_t> joints() const;
+    /// For each morph target of the target, the source's, or kNone.
+    [[nodiscard]] std::span<const std::uint32_t> morph_targets() const;
+
+private:
+    friend struct RetargetPlan;
+    explicit Retarget(std::unique_ptr<RetargetPlan> plan);
+
+    std::unique_ptr<RetargetPlan> plan_;
+};
+
+/// Sets `pose`, of the target, to the source's pose. Where neither a constraint nor a contact acts, limbs have the
+/// directions of the source's. Then constraints are obeyed; hands that they moved, and feet that stand on the ground,
+/// are brought to their places by IK. Retargeting to a model of the same build copies the numbers bit by bit.
+///
+/// Errors: other_model, and nothing changes; not_finite, and the pose is at rest.
+/// \param source    not `pose` itself
+/// \param contacts  such as from curves of the clip; otherwise found by the height of heel and toes above where they
+///                  are at rest
+[[nodiscard]] Result<Retargeted, CallError> retarget(Pose& pose, Retarget& retarget, Pose& source, RetargetState& state,
+                                                     const std::optional<ContactWeights>& contacts = std::nullopt);
+
+}  // namespace bendy

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <bendy/runtime/model.h>
+#include <bendy/runtime/retarget.h>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace bendy {
+
+/// A model as a body: what its joints are, and where they are at rest, in model space.
+class Body {
+public:
+    explicit Body(const Model& model);
+
+    [[nodiscard]] const Model& model() const { return model_; }
+    /// Returns the joint with that role; kNone if there is none.
+    [[nodiscard]] std::uint32_t joint(Role role) const;
+    /// Returns the joints of these roles that are there, in that order.
+    [[nodiscard]] std::vector<std::uint32_t> joints(std::initializer_list<Role> roles) const;
+    /// Returns the joints of a chain, from the body outwards.
+    [[nodiscard]] std::vector<std::uint32_t> chain(Role role) const;
+    [[nodiscard]] bool has_role(std::uint32_t joint) const { return has_role_[joint]; }
+    /// The roles that retargeting needs and the model does not have.
+    [[nodiscard]] std::vector<Role> missing() const;
+
+    [[nodiscard]] const glm::dmat4& rest(std::uint32_t joint) const { return rest_[joint]; }
+    [[nodiscard]] glm::dvec3 place(std::uint32_t joint) const { return {rest_[joint][3]}; }
+    [[nodiscard]] glm::dvec3 place(Role role) const { return place(joint(role)); }
+    /// The joint's orientation: the product of the rotations down to it. Uneven scales above it are ignored, mirroring
+    /// ones are half turns.
+    [[nodiscard]] const glm::dquat& turn(std::uint32_t joint) const { return turns_[joint]; }
+    /// The orientation that joints below it are relative to: that of the joint, and a half turn if it mirrors. The
+    /// identity for kNone.
+    [[nodiscard]] glm::dquat space(std::uint32_t joint) const;
+    /// The half turn of a joint that mirrors, otherwise the identity.
+    [[nodiscard]] glm::dquat flip(std::uint32_t joint) const;
+
+    // Of a body without missing roles:
+    /// Measures the body; returns false if its legs have no length, or a number is not finite.
+    bool measure();
+    /// The body's axes, to model space: X left, Y up, Z forward. Where they nearly are axes of model space, they are
+    /// exactly.
+    [[nodiscard]] const glm::dquat& axes() const { return axes_; }
+    [[nodiscard]] glm::dvec3 up() const { return axes_ * glm::dvec3(0.0, 1.0, 0.0); }
+    [[nodiscard]] double leg() const { return leg_; }  ///< metres from hip by knee to ankle
+    /// Below the middle of the hip joints, at the height of the ankles.
+    [[nodiscard]] const glm::dvec3& ground() const { return ground_; }
+
+private:
+    Model model_;
+    std::vector<std::uint32_t> by_role_;
+    std::vector<bool> has_role_;
+    std::vector<glm::dmat4> rest_;
+    std::vector<glm::dquat> turns_;
+    glm::dquat axes_{1.0, 0.0, 0.0, 0.0};
+    double leg_ = 0.0;
+    glm::dvec3 ground_{0.0};
+};
+
+}  // namespace bendy

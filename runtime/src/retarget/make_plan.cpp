@@ -1,0 +1,292 @@
+#include "body.h"
+#include "joint_pairs.h"
+#include "retarget_plan.h"
+
+#include "pose/ik_link.h"
+
+#include <bendy/runtime/binding.h>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+namespace bendy {
+namespace {
+
+constexpr glm::dquat kNoTurn{1.0, 0.0, 0.0, 0.0};
+
+class PlanMaker {
+public:
+    PlanMaker(RetargetPlan& plan, const Body& source, const Body& target)
+        : plan_(plan), source_(source), target_(target) {}
+
+    /// Returns false if a length is missing.
+    bool make() {
+        if (!make_map()) return false;
+        pairs_ = pair_joints(source_, target_, plan_.map.turn, plan_.options.rest_poses);
+        for (const JointPair& pair : pairs_) plan_.joints.push_back(pair.a == kNone ? kNone : pair.nearer());
+        list_source_joints();
+        for (std::uint32_t joint = 0; joint < pairs_.size(); ++joint) {
+            if (pairs_[joint].a != kNone) add_moved(joint);
+        }
+        plan_.turns.resize(plan_.source_joints.size() + plan_.mixed_turns.size());
+        make_hips();
+        make_limbs();
+        match_morph_targets();
+        return true;
+    }
+
+private:
+    bool make_map() {
+        SpaceMap& map = plan_.map;
+        map.turn = source_.axes() == target_.axes() ? kNoTurn
+                                                    : glm::normalize(target_.axes() * glm::conjugate(source_.axes()));
+        plan_.source_up = source_.up();
+        plan_.up = target_.up();
+        plan_.source_leg = source_.leg();
+        plan_.leg = target_.leg();
+        if (plan_.options.rest_poses == RestPoses::measured) {
+            map.scale = target_.leg() / source_.leg();
+            map.from = source_.ground();
+            map.to = target_.ground();
+            return true;
+        }
+        const double from = glm::dot(source_.up(), source_.place(Role::hips));
+        const double to = glm::dot(target_.up(), target_.place(Role::hips));
+        map.scale = to / from;
+        return from > 1e-9 && to > 1e-9 && std::isfinite(map.scale);
+    }
+
+    void list_source_joints() {
+        const auto parents = plan_.source.parents();
+        std::vector<bool> is_needed(parents.size());
+        const auto need = [&](std::uint32_t joint) {
+            for (; joint != kNone && !is_needed[joint]; joint = parents[joint]) is_needed[joint] = true;
+        };
+        for (const JointPair& pair : pairs_) {
+            need(pair.a);
+            need(pair.b);
+        }
+        turn_of_.assign(parents.size(), kNone);
+        for (std::uint32_t joint = 0; joint < parents.size(); ++joint) {
+            if (!is_needed[joint]) continue;
+            turn_of_[joint] = static_cast<std::uint32_t>(plan_.source_joints.size());
+            const glm::dquat flip = source_.flip(joint);
+            plan_.source_joints.push_back(
+                {joint, parents[joint] == kNone ? kNone : turn_of_[parents[joint]], flip != kNoTurn, flip});
+        }
+        moved_of_.assign(pairs_.size(), kNone);
+    }
+
+    [[nodiscard]] std::uint32_t moved_above(std::uint32_t joint) const {
+        const auto parents = plan_.target.parents();
+        for (joint = parents[joint]; joint != kNone && moved_of_[joint] == kNone;) joint = parents[joint];
+        return joint == kNone ? kNone : moved_of_[joint];
+    }
+
+    /// Returns the inverse orientation at rest of what a pair turns by: a mixed turn is relative to rest already.
+    [[nodiscard]] glm::dquat source_rest(const JointPair& pair) const {
+        return pair.b == kNone ? glm::conjugate(source_.turn(pair.a)) : kNoTurn;
+    }
+
+    std::uint32_t add_turn(const JointPair& pair) {
+        if (pair.b == kNone) return turn_of_[pair.a];
+        plan_.mixed_turns.push_back({turn_of_[pair.a], turn_of_[pair.b], glm::conjugate(source_.turn(pair.a)),
+                                     glm::conjugate(source_.turn(pair.b)), pair.share});
+        return static_cast<std::uint32_t>(plan_.source_joints.size() + plan_.mixed_turns.size() - 1);
+    }
+
+    void add_moved(std::uint32_t joint) {
+        const JointPair& pair = pairs_[joint];
+        const std::uint32_t parent = plan_.target.parents()[joint];
+        const std::uint32_t above = moved_above(joint);
+        const glm::dquat back = glm::conjugate(plan_.map.turn);
+        MovedJoint moved;
+        moved.joint = joint;
+        moved.source = pair.nearer();
+        moved.turn = add_turn(pair);
+        moved.after = source_rest(pair) * back * pair.align * target_.turn(joint);
+        if (above == kNone) {
+            moved.before = glm::conjugate(target_.space(parent)) * plan_.map.turn;
+        } else {
+            const MovedJoint& carrier = plan_.moved[above];
+            const JointPair& carrying = pairs_[carrier.joint];
+            moved.above = carrier.turn;
+            moved.before = glm::conjugate(source_rest(carrying) * back * carrying.align * target_.space(parent));
+        }
+        moved.is_prop = pair.is_prop;
+        if (moved.is_prop) moved.travel = travel_of(moved.source, joint);
+        moved.is_copy = is_copy(joint, above);
+        moved_of_[joint] = static_cast<std::uint32_t>(plan_.moved.size());
+        plan_.moved.push_back(moved);
+    }
+
+    /// Returns true if the joint's numbers mean the same in both models.
+    [[nodiscard]] bool is_copy(std::uint32_t joint, std::uint32_t above) const {
+        const JointPair& pair = pairs_[joint];
+        const SpaceMap& map = plan_.map;
+        if (pair.b != kNone || pair.align != kNoTurn || map.turn != kNoTurn || map.scale != 1.0 || map.from != map.to)
+            return false;
+        const Joint& from = plan_.source.joints()[pair.a];
+        const Joint& to = plan_.target.joints()[joint];
+        if (from.rest.rotation != to.rest.rotation || from.rest.translation != to.rest.translation ||
+            from.rest.scale != to.rest.scale || from.shear != to.shear) {
+            return false;
+        }
+        if (to.parent == kNone || from.parent == kNone) return to.parent == from.parent;
+        if (above == kNone) return false;
+        const MovedJoint& carrier = plan_.moved[above];
+        return carrier.joint == to.parent && carrier.is_copy && carrier.source == from.parent;
+    }
+
+    [[nodiscard]] glm::dmat3 travel_of(std::uint32_t from, std::uint32_t to) const {
+        const std::uint32_t from_parent = plan_.source.parents()[from];
+        const std::uint32_t to_parent = plan_.target.parents()[to];
+        const glm::dmat3 out = from_parent == kNone ? glm::dmat3(1.0) : glm::dmat3(source_.rest(from_parent));
+        const glm::dmat3 in = to_parent == kNone ? glm::dmat3(1.0) : glm::dmat3(target_.rest(to_parent));
+        if (!(std::abs(glm::determinant(in)) > 1e-30)) return glm::dmat3(0.0);
+        return glm::inverse(in) * glm::mat3_cast(plan_.map.turn) * out * plan_.map.scale;
+    }
+
+    void make_hips() {
+        HipsPlan& hips = plan_.hips;
+        const std::uint32_t joint = target_.joint(Role::hips);
+        if (moved_of_[joint] == kNone || plan_.moved[moved_of_[joint]].is_copy) return;
+        const glm::dmat4 inverse = glm::inverse(target_.rest(joint));
+        if (!std::isfinite(inverse[3].x + inverse[0].x + inverse[1].y + inverse[2].z)) return;
+        hips.joint = joint;
+        hips.source = {source_.joint(Role::hips), source_.joint(Role::hips)};
+        if (plan_.options.rest_poses == RestPoses::measured) {
+            hips.source = {source_.joint(Role::left_upper_leg), source_.joint(Role::right_upper_leg)};
+            const glm::dvec3 middle =
+                0.5 * (target_.place(Role::left_upper_leg) + target_.place(Role::right_upper_leg));
+            hips.middle = glm::dvec3(inverse * glm::dvec4(middle, 1.0));
+        }
+        const auto parents = plan_.target.parents();
+        for (std::uint32_t above = parents[joint]; above != kNone; above = parents[above]) hips.above.push_back(above);
+        std::reverse(hips.above.begin(), hips.above.end());
+    }
+
+    void make_limbs() {
+        const glm::dvec3 ahead = target_.axes() * glm::dvec3(0.0, 0.0, 1.0);
+        make_limb(plan_.limbs[0], {Role::left_upper_leg, Role::left_lower_leg, Role::left_foot}, ahead);
+        make_limb(plan_.limbs[1], {Role::right_upper_leg, Role::right_lower_leg, Role::right_foot}, ahead);
+        make_limb(plan_.limbs[2], {Role::left_upper_arm, Role::left_lower_arm, Role::left_hand}, -ahead);
+        make_limb(plan_.limbs[3], {Role::right_upper_arm, Role::right_lower_arm, Role::right_hand}, -ahead);
+        make_foot(plan_.feet[0], Role::left_foot, Role::left_toes);
+        make_foot(plan_.feet[1], Role::right_foot, Role::right_toes);
+    }
+
+    /// Returns the number of joints from one down to another, both included; 0 if the second is not below.
+    [[nodiscard]] std::uint32_t links_between(std::uint32_t upper, std::uint32_t end) const {
+        const auto parents = plan_.target.parents();
+        std::uint32_t links = 1;
+        for (; end != kNone && end != upper; end = parents[end]) ++links;
+        return end == kNone ? 0 : links;
+    }
+
+    void make_limb(LimbPlan& limb, const std::array<Role, 3>& roles, const glm::dvec3& side) {
+        limb.upper = target_.joint(roles[0]);
+        limb.lower = target_.joint(roles[1]);
+        limb.end = target_.joint(roles[2]);
+        const glm::dvec3 start = target_.place(limb.upper);
+        const glm::dvec3 middle = target_.place(limb.lower);
+        const glm::dvec3 end = target_.place(limb.end);
+        limb.length = glm::length(middle - start) + glm::length(end - middle);
+        const glm::dvec3 way = end - start;
+        glm::dvec3 bend = middle - start;
+        constexpr double kBent = 0.05;  // of the length
+        if (glm::dot(way, way) > 0.0) bend -= way * (glm::dot(bend, way) / glm::dot(way, way));
+        if (!(glm::length(bend) > kBent * limb.length)) bend = side;
+        limb.bend = glm::conjugate(target_.turn(limb.upper)) * glm::normalize(bend);
+        const std::uint32_t links = links_between(limb.upper, limb.end);
+        const bool has_middle = links_between(limb.upper, limb.lower) != 0 && links_between(limb.lower, limb.end) != 0;
+        constexpr std::uint32_t kPlain = kLimbLinks;
+        for (const Chain& chain : plan_.target.chains()) {
+            if (links != kPlain && chain.start == limb.upper && chain.effector == limb.end) limb.chain = &chain;
+        }
+        limb.own.start = limb.upper;
+        limb.own.effector = limb.end;
+        limb.own.links = links;
+        limb.own.solver = Solver::two_bone;
+        limb.can_reach = has_middle && limb.length > 0.0 && (links == kPlain || limb.chain != nullptr);
+    }
+
+    void make_foot(FootPlan& foot, Role ankle, Role toes) {
+        foot.turn = turn_of_[source_.joint(ankle)];
+        foot.rest = glm::conjugate(source_.turn(source_.joint(ankle)));
+        foot.heel = make_contact(ankle);
+        if (source_.joint(toes) == kNone || target_.joint(toes) == kNone) return;
+        foot.toes = make_contact(toes);
+        const glm::dmat4 inverse = glm::inverse(target_.rest(target_.joint(ankle)));
+        foot.toes_at = glm::dvec3(inverse * glm::dvec4(target_.place(toes), 1.0));
+    }
+
+    [[nodiscard]] ContactPlan make_contact(Role role) const {
+        const double from = glm::dot(plan_.source_up, source_.place(role) - plan_.map.from);
+        const double to = glm::dot(plan_.up, target_.place(role) - plan_.map.to);
+        return {source_.joint(role), from, to - plan_.map.scale * from};
+    }
+
+    void match_morph_targets() {
+        plan_.morph_targets.assign(plan_.target.morph_target_count(), kNone);
+        const Binding names(plan_.source, plan_.target);
+        for (std::uint32_t from = 0; from < names.targets().size(); ++from) {
+            const std::uint32_t to = names.targets()[from];
+            if (to != kNone && plan_.morph_targets[to] == kNone) plan_.morph_targets[to] = from;
+        }
+    }
+
+    RetargetPlan& plan_;
+    const Body& source_;
+    const Body& target_;
+    std::vector<JointPair> pairs_;
+    std::vector<std::uint32_t> turn_of_;   // of each joint of the source
+    std::vector<std::uint32_t> moved_of_;  // of each joint of the target
+};
+
+/// Returns what is wrong with a body, if anything is.
+std::optional<RetargetError> fault_of(Body& body, bool is_source) {
+    if (body.model().roles().empty()) return RetargetError{RetargetError::Reason::no_roles, is_source, {}};
+    std::vector<Role> missing = body.missing();
+    if (!missing.empty()) return RetargetError{RetargetError::Reason::missing_roles, is_source, std::move(missing)};
+    if (!body.measure()) return RetargetError{RetargetError::Reason::no_size, is_source, {}};
+    return std::nullopt;
+}
+
+}  // namespace
+
+Result<Retarget, RetargetError> RetargetPlan::make(const Model& source, const Model& target,
+                                                   const RetargetOptions& options) {
+    Body from(source), to(target);
+    if (auto fault = fault_of(from, true)) return *fault;
+    if (auto fault = fault_of(to, false)) return *fault;
+    auto plan = std::make_unique<RetargetPlan>(source, target);
+    plan->options = options;
+    if (!PlanMaker(*plan, from, to).make()) return RetargetError{RetargetError::Reason::no_size, false, {}};
+    return Retarget(std::move(plan));
+}
+
+Result<Retarget, RetargetError> Retarget::make(const Model& source, const Model& target,
+                                               const RetargetOptions& options) {
+    return RetargetPlan::make(source, target, options);
+}
+
+std::string error_text(const RetargetError& error) {
+    const std::string who = error.is_source ? "the source" : "the target";
+    if (error.reason == RetargetError::Reason::no_roles)
+        return who + " does not say what its joints are: list them as \"roles\" in its rig file";
+    if (error.reason == RetargetError::Reason::no_size)
+        return who + " has legs without length, or joints at places that are not finite";
+    std::string text = who + " has no joint for";
+    for (std::size_t k = 0; k < error.missing.size(); ++k)
+        text.append(k == 0 ? " " : ", ").append(kValueNames<Role>[static_cast<std::size_t>(error.missing[k])]);
+    return text + ": name them as \"roles\" in its rig file";
+}
+
+}  // namespace bendy

@@ -1,0 +1,601 @@
+#include <bendy/runtime/constrain.h>
+#include <bendy/runtime/retarget.h>
+
+#include "mutation/allocations.h"
+#include "runtime/human_model.h"
+#include "runtime/local_joints.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <random>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+// Directions and turns are judged by joint matrices alone; where the bodies face is said by the tests.
+namespace bendy::retarget_test {
+namespace {
+
+using test::HumanModel;
+using test::HumanSpec;
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+const std::vector<std::pair<std::string, std::string>> kLimbs{
+    {"leftArm", "leftForeArm"},    {"leftForeArm", "leftHand"}, {"rightArm", "rightForeArm"},
+    {"rightForeArm", "rightHand"}, {"leftUpLeg", "leftLeg"},    {"leftLeg", "leftFoot"},
+    {"rightUpLeg", "rightLeg"},    {"rightLeg", "rightFoot"}};
+
+double angle_of(const glm::dquat& a, const glm::dquat& b) {
+    const glm::dquat d = glm::conjugate(a) * b;
+    return 2.0 * std::atan2(std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z), std::abs(d.w));
+}
+
+/// A human and a pose of it.
+class Human {
+public:
+    explicit Human(const HumanSpec& spec)
+        : spec_(spec), human_(spec), model_(human_.file()), pose_(*model_), rest_(*model_) {}
+
+    [[nodiscard]] const Model& model() const { return *model_; }
+    Pose& pose() { return pose_; }
+    [[nodiscard]] std::uint32_t joint(const std::string& name) const { return human_.joint(name); }
+
+    /// In axes of the body, as all places and turns.
+    glm::dvec3 place(const std::string& name) { return back() * glm::dvec3(pose_.model_space()[joint(name)][3]); }
+    glm::dvec3 way(const std::string& from, const std::string& to) { return glm::normalize(place(to) - place(from)); }
+    /// Since rest.
+    glm::dquat turn(const std::string& name) {
+        const glm::dmat3 now(pose_.model_space()[joint(name)]);
+        const glm::dmat3 rest(rest_.model_space()[joint(name)]);
+        return back() * glm::normalize(glm::quat_cast(now * glm::inverse(rest))) * glm::conjugate(back());
+    }
+    /// Turns a joint about an axis of the body, with all below it.
+    void turn_by(const std::string& name, const glm::dvec3& axis, double degrees) {
+        const glm::dmat3 parent(pose_.model_space()[model_->parents()[joint(name)]]);
+        const glm::dvec3 own = glm::normalize(glm::inverse(parent) * (glm::conjugate(back()) * axis));
+        const glm::dquat turn = glm::angleAxis(degrees * M_PI / 180.0, own);
+        test::local_of(pose_, joint(name))->rotation =
+            glm::quat(glm::normalize(turn * glm::dquat(pose_.local(joint(name)).rotation)));
+    }
+    [[nodiscard]] glm::dvec3 to_model(const glm::dvec3& place) const { return glm::conjugate(back()) * place; }
+    /// Gives a joint the orientation that it has at rest.
+    void level(const std::string& name) {
+        const glm::dmat3 parent(pose_.model_space()[model_->parents()[joint(name)]]);
+        const glm::dmat3 rest(rest_.model_space()[joint(name)]);
+        test::local_of(pose_, joint(name))->rotation =
+            glm::quat(glm::normalize(glm::conjugate(glm::quat_cast(parent)) * glm::quat_cast(rest)));
+    }
+    void pose_at_random(unsigned seed, double size) {
+        std::mt19937 random(seed);
+        std::normal_distribution<double> number;
+        pose_.set_rest();
+        for (const JointRole& role : model_->roles()) {
+            const glm::dquat turn =
+                glm::normalize(glm::dquat(1.0, size * number(random), size * number(random), size * number(random)));
+            test::local_of(pose_, role.joint)->rotation =
+                glm::quat(turn * glm::dquat(pose_.local(role.joint).rotation));
+        }
+        test::local_of(pose_, joint("hips"))->translation += glm::vec3(0.1, 0.05, -0.2);
+    }
+
+private:
+    [[nodiscard]] glm::dquat back() const { return glm::angleAxis(-spec_.facing * M_PI / 180.0, glm::dvec3(0, 1, 0)); }
+
+    HumanSpec spec_;
+    HumanModel human_;
+    test::Owned model_;
+    Pose pose_, rest_;
+};
+
+Retarget made(const Human& source, const Human& target, const RetargetOptions& options = {}) {
+    auto retarget = Retarget::make(source.model(), target.model(), options);
+    EXPECT_TRUE(retarget) << (retarget ? "" : error_text(retarget.error()));
+    return *std::move(retarget);
+}
+
+/// Only the joints' turns and the hips' travel.
+constexpr RetargetOptions kDirections{RestPoses::measured, false, false};
+
+double worst_direction(Human& source, Human& target) {
+    double worst = 0.0;
+    for (const auto& [from, to] : kLimbs)
+        worst = std::max(worst, glm::length(source.way(from, to) - target.way(from, to)));
+    return worst;
+}
+
+TEST(Retarget, LimbsHaveTheSourcesDirections) {
+    const std::vector<HumanSpec> targets{
+        {.axes = 2},
+        {.facing = 90.0, .axes = 3},
+        {.facing = 37.0, .axes = 0},
+        {.is_z_up = true, .axes = 4},
+        {.arms_down = 50.0, .axes = 5},
+        {.thigh = 0.3, .shin = 0.5, .hip_width = 0.3, .axes = 6},
+        {.facing = 180.0,
+         .is_z_up = true,
+         .arms_down = 30.0,
+         .spine = 1,
+         .has_neck = false,
+         .has_toes = false,
+         .has_fingers = false,
+         .axes = 7},
+    };
+    for (const HumanSpec& from : {HumanSpec{}, HumanSpec{.facing = -90.0, .is_z_up = true, .arms_down = 45.0}}) {
+        Human source(from);
+        for (const HumanSpec& to : targets) {
+            Human target(to);
+            Retarget retargeted = made(source, target, kDirections);
+            for (unsigned seed = 0; seed < 20; ++seed) {
+                source.pose_at_random(seed, 0.4);
+                RetargetState state;
+                ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+                EXPECT_LT(worst_direction(source, target), 2e-5) << seed << ", axes " << to.axes;
+            }
+        }
+    }
+}
+
+TEST(Retarget, JointsTurnAsTheSources) {
+    Human source(HumanSpec{});
+    for (const HumanSpec& to : {HumanSpec{.axes = 2}, HumanSpec{.facing = 90.0, .axes = 3},
+                                HumanSpec{.is_z_up = true, .thigh = 0.9, .shin = 0.84, .axes = 4}}) {
+        Human target(to);
+        Retarget retargeted = made(source, target, kDirections);
+        for (unsigned seed = 0; seed < 10; ++seed) {
+            source.pose_at_random(seed, 0.4);
+            RetargetState state;
+            ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+            for (const char* name : {"hips", "spine0", "spine2", "neck", "head", "leftShoulder", "leftArm",
+                                     "rightForeArm", "leftHand", "leftMiddle2", "rightLeg", "leftFoot", "rightToes"})
+                EXPECT_LT(angle_of(source.turn(name), target.turn(name)), 2e-5) << name;
+        }
+    }
+}
+
+TEST(Retarget, AnArmThatHangsAtRestTurnsAboutItsAxisAsOneThatIsStretchedOut) {
+    Human source(HumanSpec{.axes = 0});
+    Human target(HumanSpec{.arms_down = 60.0, .axes = 2});
+    Retarget retargeted = made(source, target, kDirections);
+    RetargetState state;
+    source.turn_by("leftHand", {1, 0, 0}, 40.0);
+    ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+    // From rest the target's arm is lifted by 60 degrees, then its hand turned by 40.
+    const glm::dquat lifted = glm::angleAxis(M_PI / 3.0, glm::dvec3(0, 0, 1));
+    EXPECT_LT(angle_of(target.turn("leftArm"), lifted), 1e-5);
+    EXPECT_LT(angle_of(target.turn("leftHand"), glm::angleAxis(40.0 * M_PI / 180.0, glm::dvec3(1, 0, 0)) * lifted),
+              1e-5);
+}
+
+TEST(Retarget, TheHipsTravelWithTheLengthOfTheLegs) {
+    Human source(HumanSpec{});
+    Human target(HumanSpec{.facing = 90.0, .is_z_up = true, .thigh = 0.9, .shin = 0.84, .axes = 3});
+    Retarget retargeted = made(source, target, kDirections);
+    EXPECT_NEAR(retargeted.scale(), 2.0f, 1e-3f);
+    const glm::dvec3 rest = target.place("hips");
+    source.pose_at_random(3, 0.3);
+    RetargetState state;
+    ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+    const double scale = retargeted.scale();
+    const auto middle = [](Human& human) { return 0.5 * (human.place("leftUpLeg") + human.place("rightUpLeg")); };
+    const glm::dvec3 travelled = middle(source) - glm::dvec3(0, 0.95, 0);
+    EXPECT_LT(glm::length(middle(target) - glm::dvec3(0, 1.82, 0) - scale * travelled), 2e-4);
+    EXPECT_GT(glm::length(target.place("hips") - rest), 0.1);
+}
+
+TEST(Retarget, ColumnsOfOtherNumbersShareTheirTurn) {
+    for (const std::uint32_t from : {1u, 2u, 3u}) {
+        Human source(HumanSpec{.spine = from, .axes = 2});
+        const std::string last = "spine" + std::to_string(from - 1);
+        source.turn_by("hips", {0, 1, 0}, 20.0);
+        source.turn_by("spine0", {1, 0, 0}, 30.0);
+        source.turn_by("head", {0, 0, 1}, 25.0);
+        for (const std::uint32_t to : {1u, 2u, 3u}) {
+            Human target(HumanSpec{.spine = to, .has_neck = to != 2, .axes = 3});
+            Retarget retargeted = made(source, target, kDirections);
+            RetargetState state;
+            ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+            EXPECT_LT(angle_of(source.turn(last), target.turn("spine" + std::to_string(to - 1))), 2e-5);
+            EXPECT_LT(angle_of(source.turn("head"), target.turn("head")), 2e-5);
+        }
+    }
+    Human source(HumanSpec{.spine = 1});
+    Human target(HumanSpec{.spine = 3, .axes = 3});
+    source.turn_by("spine0", {1, 0, 0}, 30.0);
+    Retarget retargeted = made(source, target, kDirections);
+    RetargetState state;
+    ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+    for (int k = 0; k < 3; ++k) {
+        const glm::dquat part = glm::angleAxis((k + 1) * 10.0 * M_PI / 180.0, glm::dvec3(1, 0, 0));
+        EXPECT_LT(angle_of(target.turn("spine" + std::to_string(k)), part), 2e-5);
+    }
+}
+
+TEST(Retarget, AMissingNeckGivesItsTurnToTheHead) {
+    Human source(HumanSpec{.has_neck = false});
+    Human target(HumanSpec{.axes = 3});
+    source.turn_by("head", {0, 1, 0}, 40.0);
+    Retarget retargeted = made(source, target, kDirections);
+    RetargetState state;
+    ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+    EXPECT_LT(angle_of(target.turn("neck"), glm::angleAxis(20.0 * M_PI / 180.0, glm::dvec3(0, 1, 0))), 2e-5);
+    EXPECT_LT(angle_of(target.turn("head"), source.turn("head")), 2e-5);
+}
+
+TEST(Retarget, PosesOfTheSameBuildAreCopiedBitByBit) {
+    const HumanSpec spec{.axes = 9, .prefix = "a_"};
+    Human source(spec);
+    for (const std::string prefix : {"a_", "b_"}) {
+        HumanSpec other = spec;
+        other.prefix = prefix;
+        Human target(other);
+        Retarget retargeted = made(source, target);
+        RetargetState state;
+        for (unsigned seed = 0; seed < 10; ++seed) {
+            source.pose_at_random(seed, 0.2);
+            test::local_of(source.pose(), source.joint("sword"))->scale = {2, 3, 4};
+            test::local_of(source.pose(), source.joint("root"))->translation = {1, 2, 3};
+            const auto done = retarget(target.pose(), retargeted, source.pose(), state);
+            ASSERT_TRUE(done);
+            EXPECT_EQ(done->lowered, 0.0f);
+            const auto from = source.pose().local_blocks();
+            const auto to = target.pose().local_blocks();
+            EXPECT_EQ(std::memcmp(from.data(), to.data(), from.size_bytes()), 0) << seed;
+        }
+    }
+}
+
+TEST(Retarget, ThereAndBackIsTheSamePose) {
+    Human source(HumanSpec{});
+    Human target(HumanSpec{.facing = 90.0, .is_z_up = true, .arms_down = 40.0, .thigh = 0.7, .axes = 3});
+    Human back(HumanSpec{});
+    Retarget there = made(source, target, kDirections);
+    Retarget and_back = made(target, back, kDirections);
+    for (unsigned seed = 0; seed < 10; ++seed) {
+        source.pose_at_random(seed, 0.3);
+        RetargetState state;
+        ASSERT_TRUE(retarget(target.pose(), there, source.pose(), state));
+        ASSERT_TRUE(retarget(back.pose(), and_back, target.pose(), state));
+        for (const JointRole& role : source.model().roles()) {
+            EXPECT_LT(angle_of(glm::dquat(source.pose().local(role.joint).rotation),
+                               glm::dquat(back.pose().local(role.joint).rotation)),
+                      1e-4)
+                << source.model().joints()[role.joint].name;
+        }
+        EXPECT_LT(glm::length(source.place("hips") - back.place("hips")), 1e-4);
+    }
+}
+
+TEST(Retarget, PropsOfTheSameNameComeAlong) {
+    Human source(HumanSpec{.prefix = "a_"});
+    Human target(HumanSpec{.is_z_up = true, .thigh = 0.9, .shin = 0.84, .axes = 3, .prefix = "b_"});
+    const glm::dvec3 rest = target.place("sword") - target.place("leftHand");
+    const glm::dvec3 source_rest = source.place("sword") - source.place("leftHand");
+    source.turn_by("sword", {0, 1, 0}, 50.0);
+    test::local_of(source.pose(), source.joint("sword"))->translation += glm::vec3(0.1, 0.0, 0.02);
+    test::local_of(source.pose(), source.joint("sword"))->scale *= 3.0f;
+    const glm::dvec3 moved = source.place("sword") - source.place("leftHand") - source_rest;
+    Retarget retargeted = made(source, target, kDirections);
+    RetargetState state;
+    ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+    EXPECT_EQ(retargeted.joints()[target.joint("sword")], source.joint("sword"));
+    EXPECT_LT(angle_of(source.turn("sword"), target.turn("sword")), 1e-5);
+    EXPECT_LT(glm::length(target.place("sword") - target.place("leftHand") - rest - double{retargeted.scale()} * moved),
+              1e-5);
+    EXPECT_NEAR(target.pose().local(target.joint("sword")).scale.y, 3.0f, 1e-5f);
+}
+
+test::Node target_node(const std::string& name) {
+    return test::make_container(FourCC("TARG"),
+                                {test::make_leaf(FourCC("NAME"), std::as_bytes(std::span(name))),
+                                 test::make_leaf(FourCC("TINF"), bytes_of(MorphTargetRecord{})),
+                                 test::make_leaf(FourCC("POSI"), test::stream_payload<float>(3, {0, 1, 0}))});
+}
+
+TEST(Retarget, MorphTargetsOfTheSameNameComeAlong) {
+    const auto with_face = [](const HumanSpec& human, const std::vector<std::string>& names) {
+        test::ModelSpec spec = HumanModel(human).spec;
+        test::MeshSpec mesh;
+        mesh.joint = 0;
+        mesh.positions = {{0, 0, 0}};
+        for (const std::string& name : names) mesh.more.push_back(target_node(name));
+        spec.meshes.push_back(mesh);
+        return test::build_file(spec);
+    };
+    const test::Owned source(with_face({}, {"smile", "frown"}));
+    const test::Owned target(with_face({.axes = 2}, {"blink", "frown"}));
+    auto retargeted = Retarget::make(*source, *target);
+    ASSERT_TRUE(retargeted);
+    Pose from(*source), to(*target);
+    from.change_morph_weights()[0] = 0.25f;
+    from.change_morph_weights()[1] = 0.75f;
+    RetargetState state;
+    ASSERT_TRUE(retarget(to, *retargeted, from, state));
+    EXPECT_EQ(to.morph_weights()[0], 0.0f);
+    EXPECT_EQ(to.morph_weights()[1], 0.75f);
+    EXPECT_EQ(retargeted->morph_targets()[0], kNone);
+}
+
+/// An elbow that bends by an angle of any axis at most.
+ConstraintRecord largest_bend(double degrees) {
+    ConstraintRecord record;
+    record.model = static_cast<std::uint8_t>(ConstraintModel::largest_angle);
+    record.rotation_max = {static_cast<float>(degrees * M_PI / 180.0), kInf, kInf};
+    return record;
+}
+
+TEST(Retarget, StaysInsideTheTargetsConstraints) {
+    Human source(HumanSpec{});
+    Human target(HumanSpec{.axes = 3, .elbows = {largest_bend(30.0)}});
+    Retarget retargeted = made(source, target);
+    RetargetState state;
+    source.turn_by("leftForeArm", {0, 1, 0}, -20.0);
+    auto done = retarget(target.pose(), retargeted, source.pose(), state);
+    ASSERT_TRUE(done);
+    EXPECT_EQ(done->turned, 0.0f);
+    EXPECT_EQ(done->turned_joint, kNone);
+    EXPECT_LT(worst_direction(source, target), 2e-5);
+    source.turn_by("leftForeArm", {0, 1, 0}, -60.0);
+    done = retarget(target.pose(), retargeted, source.pose(), state);
+    ASSERT_TRUE(done);
+    EXPECT_NEAR(done->turned, 50.0 * M_PI / 180.0, 1e-3);
+    EXPECT_EQ(done->turned_joint, target.joint("leftForeArm"));
+    EXPECT_GT(done->missed, 0.0f);
+    for (const Constraint& constraint : target.model().constraints()) {
+        const JointTransform& rest = target.model().joints()[constraint.joint].rest;
+        const glm::quat local = target.pose().local(constraint.joint).rotation;
+        EXPECT_LT(violation(constraint, to_constraint_space(constraint, rest.rotation, local)), 1e-5);
+    }
+    RetargetOptions without;
+    without.obey_constraints = false;
+    Retarget free = made(source, target, without);
+    done = retarget(target.pose(), free, source.pose(), state);
+    ASSERT_TRUE(done);
+    EXPECT_EQ(done->turned, 0.0f);
+    EXPECT_LT(worst_direction(source, target), 2e-5);
+}
+
+/// Brings a foot to a place, in axes of the body, level as at rest.
+void put_foot(Human& human, const std::string& side, const glm::dvec3& place) {
+    ReachOptions options;
+    options.pole = glm::vec3(human.to_model(human.place(side + "Leg") + glm::dvec3(0, 0, 0.5)));
+    const Chain* chain = human.model().chain(side == "left" ? "0" : "1");
+    const auto reached = reach(human.pose(), chain, glm::vec3(human.to_model(place)), options);
+    ASSERT_TRUE(reached && reached->status == ReachStatus::reached);
+    human.level(side + "Foot");
+}
+
+/// Both feet stay on the ground while the hips sway, sink and turn.
+void sway(Human& human, double phase) {
+    human.pose().set_rest();
+    const glm::dvec3 left = human.place("leftFoot"), right = human.place("rightFoot");
+    human.turn_by("hips", {0, 1, 0}, 15.0 * std::sin(phase));
+    test::local_of(human.pose(), human.joint("hips"))->translation +=
+        glm::vec3(0.06 * std::sin(phase), -0.1 + 0.04 * std::cos(phase), 0.05 * std::sin(2.0 * phase));
+    put_foot(human, "left", left);
+    put_foot(human, "right", right);
+}
+
+/// Also in the constraints' tests: other builds.
+const std::vector<HumanSpec> kBuilds{
+    {.axes = 2},
+    {.facing = 90.0, .thigh = 0.35, .shin = 0.5, .hip_width = 0.35, .axes = 3},
+    {.is_z_up = true, .arms_down = 40.0, .thigh = 0.5, .shin = 0.35, .hip_width = 0.12, .axes = 4},
+    {.facing = 180.0, .thigh = 0.2, .shin = 0.22, .hip_width = 0.3, .has_toes = false, .axes = 5},
+};
+
+TEST(Retarget, FeetStandWhereTheyAre) {
+    Human source(HumanSpec{});
+    for (const HumanSpec& build : kBuilds) {
+        Human target(build);
+        const double leg = build.thigh + build.shin;
+        const double height = target.place("leftFoot").y;
+        Retarget retargeted = made(source, target);
+        RetargetState state;
+        glm::dvec3 stood{0.0};
+        for (int frame = 0; frame < 60; ++frame) {
+            sway(source, 2.0 * M_PI * frame / 60.0);
+            const auto done = retarget(target.pose(), retargeted, source.pose(), state);
+            ASSERT_TRUE(done);
+            EXPECT_EQ(done->contacts[0], 1.0f);
+            EXPECT_LT(done->missed, 2e-4 * leg);
+            if (frame == 0) stood = target.place("leftFoot");
+            EXPECT_LT(glm::length(target.place("leftFoot") - stood), 2e-4 * leg) << frame << ", axes " << build.axes;
+            EXPECT_NEAR(target.place("leftFoot").y, height, 2e-4 * leg);
+            EXPECT_LT(angle_of(source.turn("leftFoot"), target.turn("leftFoot")), 1e-4);
+        }
+    }
+}
+
+/// The left foot takes a step while the right one stands; `share` 0 to 1.
+void step(Human& human, double share) {
+    human.pose().set_rest();
+    const glm::dvec3 left = human.place("leftFoot"), right = human.place("rightFoot");
+    test::local_of(human.pose(), human.joint("hips"))->translation += glm::vec3(0.0, -0.1, 0.1 * share);
+    const double s = std::clamp(2.0 * share - 0.5, 0.0, 1.0);
+    const double eased = s * s * (3.0 - 2.0 * s);
+    const glm::dvec3 moved(0.0, 0.2 * std::pow(std::sin(M_PI * s), 2.0), 0.4 * eased);
+    put_foot(human, "left", left + moved);
+    put_foot(human, "right", right);
+}
+
+double knee_of(Human& human) {
+    return std::acos(glm::dot(human.way("leftUpLeg", "leftLeg"), human.way("leftLeg", "leftFoot")));
+}
+
+/// The largest steps of a foot and a knee from one frame to the next.
+struct Steps {
+    double foot = 0.0, knee = 0.0;
+
+    void add(Human& human, bool is_first) {
+        const glm::dvec3 at = human.place("leftFoot");
+        const double bent = knee_of(human);
+        if (!is_first) foot = std::max(foot, glm::length(at - at_));
+        if (!is_first) knee = std::max(knee, std::abs(bent - bent_));
+        at_ = at;
+        bent_ = bent;
+    }
+
+private:
+    glm::dvec3 at_{0.0};
+    double bent_ = 0.0;
+};
+
+TEST(Retarget, FeetLandAndLeaveWithoutAJump) {
+    Human source(HumanSpec{.axes = 0});
+    for (const HumanSpec& build : kBuilds) {
+        Human target(build), in_the_air(build);
+        Retarget retargeted = made(source, target);
+        RetargetState state, other;
+        Steps steps, source_steps, free_steps;
+        bool has_left = false;
+        for (int frame = 0; frame <= 120; ++frame) {
+            step(source, frame / 120.0);
+            const auto done = retarget(target.pose(), retargeted, source.pose(), state);
+            ASSERT_TRUE(done);
+            has_left = has_left || done->contacts[0] == 0.0f;
+            steps.add(target, frame == 0);
+            source_steps.add(source, frame == 0);
+        }
+        Retarget directions = made(source, in_the_air, kDirections);
+        for (int frame = 0; frame <= 120; ++frame) {
+            step(source, frame / 120.0);
+            ASSERT_TRUE(retarget(in_the_air.pose(), directions, source.pose(), other));
+            free_steps.add(in_the_air, frame == 0);
+        }
+        EXPECT_TRUE(has_left);
+        const double scale = retargeted.scale();
+        EXPECT_LT(steps.foot, 1.25 * std::max(scale * source_steps.foot, free_steps.foot)) << "axes " << build.axes;
+        EXPECT_LT(steps.knee, 2.0 * source_steps.knee) << "axes " << build.axes;
+    }
+}
+
+TEST(Retarget, ContactsMayBeGiven) {
+    Human source(HumanSpec{});
+    Human target(HumanSpec{.thigh = 0.3, .shin = 0.6, .axes = 2});
+    Retarget retargeted = made(source, target);
+    RetargetState state;
+    sway(source, 1.0);
+    auto done = retarget(target.pose(), retargeted, source.pose(), state, ContactWeights{});
+    ASSERT_TRUE(done);
+    EXPECT_EQ(done->contacts, ContactWeights{});
+    EXPECT_LT(worst_direction(source, target), 2e-5);
+    done = retarget(target.pose(), retargeted, source.pose(), state, ContactWeights{1, 1, 1, 1});
+    ASSERT_TRUE(done);
+    EXPECT_EQ(done->contacts[3], 1.0f);
+    EXPECT_GT(worst_direction(source, target), 1e-3);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    done = retarget(target.pose(), retargeted, source.pose(), state, ContactWeights{nan, 7, -1, nan});
+    ASSERT_TRUE(done);
+    EXPECT_EQ(done->contacts, (ContactWeights{0, 1, 0, 0}));
+}
+
+TEST(Retarget, SaysWhichRolesAreMissing) {
+    const Human whole(HumanSpec{});
+    const Human none(HumanSpec{.has_roles = false});
+    auto retargeted = Retarget::make(whole.model(), none.model());
+    ASSERT_FALSE(retargeted);
+    EXPECT_EQ(retargeted.error().reason, RetargetError::Reason::no_roles);
+    EXPECT_FALSE(retargeted.error().is_source);
+    EXPECT_EQ(error_text(retargeted.error()),
+              "the target does not say what its joints are: list them as \"roles\" in its rig file");
+
+    test::ModelSpec spec = HumanModel(HumanSpec{}).spec;
+    std::vector<RoleRecord> roles;
+    for (const JointRole& role : whole.model().roles()) {
+        const auto one = static_cast<Role>(role.role);
+        if (one != Role::left_hand && one != Role::right_foot) roles.push_back(role);
+    }
+    const auto bytes = std::as_bytes(std::span(roles));
+    spec.more = {test::make_leaf(FourCC("ROLE"), bytes)};
+    const test::Owned half(test::build_file(spec));
+    retargeted = Retarget::make(*half, whole.model());
+    ASSERT_FALSE(retargeted);
+    EXPECT_EQ(retargeted.error().missing, (std::vector<Role>{Role::right_foot, Role::left_hand}));
+    EXPECT_EQ(error_text(retargeted.error()),
+              "the source has no joint for right_foot, left_hand: name them as \"roles\" in its rig file");
+
+    test::ModelSpec flat = HumanModel(HumanSpec{}).spec;
+    flat.joints[0].rest.scale = {0, 0, 0};
+    const test::Owned point(test::build_file(flat));
+    retargeted = Retarget::make(*point, whole.model());
+    ASSERT_FALSE(retargeted);
+    EXPECT_EQ(retargeted.error().reason, RetargetError::Reason::no_size);
+}
+
+TEST(Retarget, RefusesOtherModelsAndNumbersThatAreNotFinite) {
+    Human source(HumanSpec{});
+    Human target(HumanSpec{.axes = 2});
+    Retarget retargeted = made(source, target);
+    RetargetState state;
+    EXPECT_EQ(retarget(source.pose(), retargeted, target.pose(), state).error(), CallError::other_model);
+    source.pose_at_random(1, 0.3);
+    for (const char* name : {"leftArm", "root", "hips"}) {
+        const auto before = source.pose().local(source.joint(name));
+        test::local_of(source.pose(), source.joint(name))->rotation.x = kInf;
+        EXPECT_EQ(retarget(target.pose(), retargeted, source.pose(), state).error(), CallError::not_finite);
+        source.pose().set_local(source.joint(name), before);
+        test::local_of(source.pose(), source.joint("hips"))->translation.y = kInf;
+        EXPECT_EQ(retarget(target.pose(), retargeted, source.pose(), state).error(), CallError::not_finite);
+        for (const JointTransform& local : test::locals_of(target.pose()))
+            EXPECT_TRUE(std::isfinite(local.rotation.x + local.translation.y));
+        source.pose().set_rest();
+    }
+}
+
+TEST(Retarget, ACopyDoesTheSame) {
+    Human source(HumanSpec{});
+    Human target(HumanSpec{.axes = 2});
+    auto first = std::make_unique<Retarget>(made(source, target));
+    Retarget copy = *first;
+    RetargetState state, other;
+    sway(source, 1.0);
+    ASSERT_TRUE(retarget(target.pose(), *first, source.pose(), state));
+    const auto expected = test::locals_of(target.pose());
+    first.reset();
+    ASSERT_TRUE(retarget(target.pose(), copy, source.pose(), other));
+    const auto again = test::locals_of(target.pose());
+    for (std::size_t joint = 0; joint < again.size(); ++joint)
+        EXPECT_EQ(again[joint].rotation, expected[joint].rotation);
+}
+
+TEST(Retarget, AllocatesNothing) {
+    Human source(HumanSpec{});
+    Human target(HumanSpec{.is_z_up = true, .spine = 2, .axes = 2, .elbows = {largest_bend(10.0)}});
+    Retarget retargeted = made(source, target);
+    RetargetState state;
+    source.pose_at_random(1, 0.3);
+    (void)source.pose().model_space();
+    const std::uint64_t before = test::allocations().count;
+    bool is_good = true;
+    for (int frame = 0; frame < 20; ++frame) {
+        test::local_of(source.pose(), source.joint("hips"))->translation.y -= 0.01f;
+        is_good = retarget(target.pose(), retargeted, source.pose(), state) && is_good;
+        is_good = retarget(target.pose(), retargeted, source.pose(), state, ContactWeights{1, 1, 1, 1}) && is_good;
+        is_good = !retarget(source.pose(), retargeted, target.pose(), state) && is_good;
+    }
+    EXPECT_EQ(test::allocations().count - before, 0u);
+    EXPECT_TRUE(is_good);
+}
+
+TEST(Retarget, AlikeRestPosesGiveTheSourcesTurnsWhateverTheBones) {
+    Human source(HumanSpec{});
+    Human target(HumanSpec{.arms_down = 8.0, .thigh = 0.6, .axes = 2});
+    RetargetOptions options = kDirections;
+    options.rest_poses = RestPoses::alike;
+    Retarget retargeted = made(source, target, options);
+    source.pose_at_random(4, 0.4);
+    RetargetState state;
+    ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+    for (const char* name : {"hips", "spine1", "head", "leftArm", "rightForeArm", "leftHand", "leftFoot"})
+        EXPECT_LT(angle_of(source.turn(name), target.turn(name)), 1e-5) << name;
+    EXPECT_LT(glm::length(target.place("hips") - double{retargeted.scale()} * source.place("hips")), 1e-5);
+}
+
+}  // namespace
+}  // namespace bendy::retarget_test
