@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
         std::array<glm::vec3, 2> targets{};
         float lowest = 0.0f;
         for (std::size_t leg = 0; leg < legs.size(); ++leg) {
-            const glm::vec3 ankle = position_of(pose, legs[leg]->effector);
+            const glm::vec3 ankle = position_of(pose, legs[leg]->record.effector);
             targets[leg] = ankle + glm::vec3(0.0f, ground(ankle), 0.0f);
             lowest = std::min(lowest, ground(ankle));
         }

@@ -68,7 +68,7 @@ TEST_F(PlayerTest, AChainThatIsOnReaches) {
     ASSERT_NE(arm, nullptr);
     player.is_playing = false;
     player.clip = kNone;
-    player.chains[arm->number] = {true, {0.3f, 1.2f, 0.4f}};
+    player.chains[static_cast<std::size_t>(arm - model->chains().data())] = {true, {0.3f, 1.2f, 0.4f}};
     player.update();
     EXPECT_LT(glm::length(tip_of(*arm, player.pose()) - glm::vec3(0.3f, 1.2f, 0.4f)), 2e-3f);
 }

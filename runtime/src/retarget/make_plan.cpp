@@ -208,12 +208,13 @@ private:
         const bool has_middle = links_between(limb.upper, limb.lower) != 0 && links_between(limb.lower, limb.end) != 0;
         constexpr std::uint32_t kPlain = kLimbLinks;
         for (const Chain& chain : plan_.target.chains()) {
-            if (links != kPlain && chain.start == limb.upper && chain.effector == limb.end) limb.chain = &chain;
+            if (links != kPlain && chain.record.start == limb.upper && chain.record.effector == limb.end)
+                limb.chain = &chain;
         }
-        limb.own.start = limb.upper;
-        limb.own.effector = limb.end;
+        limb.own.record.start = limb.upper;
+        limb.own.record.effector = limb.end;
         limb.own.links = links;
-        limb.own.solver = Solver::two_bone;
+        limb.own.record.solver = static_cast<std::uint8_t>(Solver::two_bone);
         limb.can_reach = has_middle && limb.length > 0.0 && (links == kPlain || limb.chain != nullptr);
     }
 
