@@ -26,16 +26,15 @@ before(() => {
 });
 after(() => rmSync(project, { recursive: true }));
 
-test('node converts and poses', () => {
-  writeFileSync(
-    join(project, 'pose.js'),
-    `import { readFile } from 'node:fs/promises';
-     import { Model } from 'bendy';
-     import { convert } from 'bendy/tools';
-     const model = await Model.open((await convert(await readFile('public/mannequin.glb'))).bytes);
-     console.log(model.sample('Walk', 0.35).skin().positions.length / 3);`,
-  );
-  assert.equal(run('node', 'pose.js').trim(), '4504');
+test('node converts and poses: the lines of README.md', () => {
+  const blocks = [...readFileSync(join(project, 'node_modules/bendy/README.md'), 'utf8').matchAll(/^```js\n(.*?)^```$/gms)].map(([, code]) => code);
+  copyFileSync(join(project, 'public/mannequin.glb'), join(project, 'fox.glb'));
+  writeFileSync(join(project, 'convert.js'), blocks.find((code) => code.includes('convert(')));
+  run('node', 'convert.js');
+  const pose = blocks.find((code) => code.includes('Model.open(')).replace("'fox.bendy'", "(await import('node:fs')).readFileSync('fox.bendy')");
+  writeFileSync(join(project, 'pose.js'), `${pose}console.log(positions.length / 3);`);
+  const vertices = Number(run('node', 'pose.js'));
+  assert.ok(vertices > 4000 && vertices <= 4504, `${vertices} of 4504 vertices: those alike are one`);
 });
 
 /** Opens a page in Chromium, and returns what it finally has as its title. `expected`: an error that it reports. */
