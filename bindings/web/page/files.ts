@@ -41,11 +41,14 @@ export function linkedFile({ files, main }: Given, uri: string): Uint8Array | un
   return found === undefined || found === main ? undefined : files[found];
 }
 
+/** A file of a folder, with its path. */
+const placed = (file: File, path: string): File => Object.defineProperty(file, 'webkitRelativePath', { value: path });
+
+/** The files in a folder, for browsers that offer no handles. */
 async function filesIn(entry: FileSystemEntry): Promise<File[]> {
   if (entry.isFile) {
     const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));
-    Object.defineProperty(file, 'webkitRelativePath', { value: entry.fullPath.replace(/^\//, '') });
-    return [file];
+    return [placed(file, entry.fullPath.replace(/^\//, ''))];
   }
   const reader = (entry as FileSystemDirectoryEntry).createReader();
   const files: File[] = [];
@@ -56,9 +59,25 @@ async function filesIn(entry: FileSystemEntry): Promise<File[]> {
   }
 }
 
-/** The dropped files, including those in folders, with their paths. */
+type Handle = (FileSystemFileHandle & { kind: 'file' }) | (FileSystemDirectoryHandle & { kind: 'directory'; values(): AsyncIterable<Handle> });
+
+async function filesOf(handle: Handle, path: string): Promise<File[]> {
+  if (handle.kind === 'file') return [placed(await handle.getFile(), path)];
+  const files: File[] = [];
+  for await (const one of handle.values()) files.push(...(await filesOf(one, `${path}/${one.name}`)));
+  return files;
+}
+
+/** Chromium reads no entries on a page that was opened as a file, but files and handles. */
+async function filesOfItem(item: DataTransferItem & { getAsFileSystemHandle?(): Promise<Handle | null> }): Promise<File[]> {
+  const entry = item.webkitGetAsEntry();
+  const file = item.getAsFile();
+  if (!entry?.isDirectory) return file === null ? [] : [file];
+  const handle = await item.getAsFileSystemHandle?.();
+  return handle ? filesOf(handle, handle.name) : filesIn(entry);
+}
+
+/** The dropped files, including those in folders, with their paths. Call it in the event: items are gone after it. */
 export async function droppedFiles(items: DataTransferItemList): Promise<File[]> {
-  const entries = [...items].filter((item) => item.kind === 'file').map((item) => item.webkitGetAsEntry() ?? item.getAsFile());
-  const lists = await Promise.all(entries.map((entry) => (entry === null ? [] : entry instanceof File ? [entry] : filesIn(entry))));
-  return lists.flat();
+  return (await Promise.all([...items].filter(({ kind }) => kind === 'file').map(filesOfItem))).flat();
 }

@@ -1,7 +1,7 @@
 // The page in a real browser: from a file, without a server or a network.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
@@ -531,6 +531,32 @@ test('clips: a sensible one first, lengths, a search, and the one that plays is 
   await tab.focus('#view');
   await tab.keyboard.press(']');
   assert.equal(await text('#clips [aria-current=true]'), 'T-Pose1.00 s');
+});
+
+/** Drops files and folders on the picture, as a person does. */
+async function drop(...files) {
+  await tab.evaluate(() => (document.getElementById('status').textContent = ''));
+  const session = await tab.createCDPSession();
+  for (const type of ['dragEnter', 'dragOver', 'drop']) {
+    await session.send('Input.dispatchDragEvent', { type, x: 400, y: 300, data: { items: [], files, dragOperationsMask: 1 } });
+    if (type === 'dragOver') await tab.waitForFunction(() => !document.getElementById('drop').hidden);
+  }
+  await session.detach();
+}
+
+test('a file, several files or a folder are dropped', { skip }, async () => {
+  await drop(join(root, 'examples/tentacle.glb'));
+  await shown('tentacle.glb');
+  assert.equal(await tab.$eval('#drop', ({ hidden }) => hidden), true);
+  await drop(join(root, 'examples/tentacle.glb'), join(root, 'examples/mannequin.glb'));
+  await shown('tentacle.glb');
+  assert.match(await text('#notices'), /2 characters were given/);
+  const inner = join(folder, 'character', 'parts');
+  mkdirSync(inner, { recursive: true });
+  for (const name of ['parts.gltf', 'parts.bin']) copyFileSync(join(folder, name), join(inner, name));
+  await drop(join(folder, 'character'));
+  await shown('character/parts/parts.gltf');
+  assert.equal(await tab.$eval('#others', ({ hidden }) => hidden), true);
 });
 
 test('of several characters the others can be chosen', { skip }, async () => {
