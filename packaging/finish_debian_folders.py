@@ -33,7 +33,8 @@ def main():
     arguments = parser.parse_args()
 
     major, minor = arguments.version.split(".")[:2]
-    date = formatdate(int(os.environ.get("SOURCE_DATE_EPOCH", time.time())))
+    seconds = int(os.environ.get("SOURCE_DATE_EPOCH", time.time()))
+    date = formatdate(seconds)
     for component in arguments.folder.iterdir():
         if not (component / "usr").is_dir():
             continue
@@ -47,6 +48,8 @@ def main():
         for page in component.glob("usr/share/man/man*/*.[0-9]"):
             compress(Path(f"{page}.gz"), page.read_bytes())
             page.unlink()
+        for path in (component, *component.rglob("*")):  # one time for all, so that the same sources give the same package
+            os.utime(path, (seconds, seconds), follow_symlinks=False)
 
 
 if __name__ == "__main__":

@@ -2,8 +2,8 @@
 """Makes one site of the documentation: scripts/make_site.py [FOLDER], build/site if not named.
 
 The pages stay where they are in the tree; what docs/mkdocs.yml lists, and all that is linked from there, is gathered in
-FOLDER/pages, and mkdocs makes FOLDER/site of it. A link that leads nowhere is a fault. The page that converts and shows
-characters is copied to FOLDER/site/page.html, if scripts/web.sh has made it.
+FOLDER/pages, and mkdocs makes FOLDER/site of it. A link that leads nowhere is a fault. If scripts/web.sh has built the npm package,
+the site also has the page that converts and shows characters, page.html, and the gallery, gallery/index.html.
 """
 
 import re
@@ -11,6 +11,8 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+
+import make_gallery
 
 ROOT = Path(__file__).resolve().parent.parent
 LINK = re.compile(r"(\]\()([^)\s]+)(\))")
@@ -109,6 +111,7 @@ def main():
         page = ROOT / "bindings/web/dist/page.html"
         if page.exists():
             shutil.copy(page, folder / "site")
+            make_gallery.make(folder / "site/gallery")
         print(f"{folder}/site/index.html")
     return done.returncode
 

@@ -2,6 +2,7 @@
 # Builds the npm package in bindings/web/dist and tests it in node: the runtime and the tools as WebAssembly, and the page
 # bindings/web/dist/page.html, which Chromium tests.
 #   scripts/web.sh            all of it
+#   scripts/web.sh package    the same without the tests
 #   scripts/web.sh runtime    the runtime alone, without the tools and the page
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -38,7 +39,7 @@ tools=../../build/cross/web-tools/build/web/tools
 { echo '// @ts-nocheck'; cat "$tools/tools.js"; } >src/generated/tools_glue.ts
 node embed.mjs "$tools/tools.wasm" src/generated/tools.ts 900000
 python3 ../convert_options.py src/generated/convert_options.ts
-[ -e test/compilers/node_modules/oldest ] || (cd test/compilers && npm ci --silent)
+[ "$what" = package ] || [ -e test/compilers/node_modules/oldest ] || (cd test/compilers && npm ci --silent)
 npm run --silent build
 built=(../../build/cross/{web/build:web/bendy.wasm,web-plain/build:web/bendy.wasm,web-tools/build:web/tools/tools.js})
 for artefact in npm page; do ../../scripts/notices.py $artefact --check "${built[@]}" dist/bundle/inputs.txt; done
@@ -46,4 +47,4 @@ npx --no-install tsc -p page
 "$BENDY_PROGRAM" convert ../../examples/mannequin.glb --rig page/example.rig.json --lod --quiet -o dist/example.bendy
 node page/build.mjs dist/example.bendy
 rm dist/example.bendy
-npm test
+[ "$what" = package ] || npm test

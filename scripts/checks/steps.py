@@ -59,7 +59,7 @@ STEPS = (
     Step("format", "gate", "sources are formatted", (["scripts/lint.sh"],), setup="test"),
     Step("build", "gate", "optimised, warnings are errors", (release("gate"), build("release", "gate")), setup="test"),
     Step("tests", "gate", "units, command line, specification, conformance, determinism, C, Python",
-         tests=(Tests("release", (*UNITS, "viewer", "architecture", "spec", "determinism", "cli", "reference", "python")),),
+         tests=(Tests("release", (*UNITS, "viewer", "architecture", "spec", "release", "determinism", "cli", "reference", "python")),),
          needs=("build",), setup="test"),
     Step("corpus", "gate", "real characters, known poses", tests=(Tests("release", ("corpus",)),), needs=("build",), setup="test"),
     Step("tidy", "gate", "clang-tidy of what has changed, and of what includes it", (["scripts/lint.sh", "build/release", "--changed"],),
@@ -116,6 +116,11 @@ STEPS = (
          uses=("bendy", "scripts/demo.sh", "scripts/setup.sh", "tests/demo")),
     Step("faults", "all", "each fault of tests/faults is found by the step that CONTRIBUTING.md names", (["scripts/checks/faults.py"],),
          uses=("tests/faults", "scripts", "CMakePresets.json", "CMakeLists.txt", "cmake", "CONTRIBUTING.md", ".github", ".ci")),
+
+    Step("release", "all", "everything that a release has, twice the same bytes; each artefact makes the first pose in an empty place",
+         (["tests/release/release_test.py"],),
+         uses=("scripts/release", "scripts/release.sh", "scripts/static.sh", "scripts/cross_dependencies.sh", "scripts/web.sh", "scripts/make_gallery.py",
+               "scripts/make_site.py", "scripts/make_wheel.py", "docs/gallery", "tests/release", "packaging", "bindings/blender", "bindings/web")),
 
     # Only when they are named.
     Step("coverage", "asked", "coverage of lines and branches of format/ and runtime/", (["scripts/coverage.sh"],)),
