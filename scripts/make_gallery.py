@@ -68,7 +68,7 @@ def write_pages(folder):
 
 
 def copy_modules(folder):
-    shutil.copytree(WEB / "dist", folder / "bendy", ignore=shutil.ignore_patterns("*.d.ts", "ts5.6", "bundle", "page.html", "engines", "react.js"))
+    shutil.copytree(WEB / "dist", folder / "bendy", ignore=shutil.ignore_patterns("*.d.ts", "ts5.6", "bundle", "page.html", "react.js"))
     for name in ("LICENSE", "NOTICES.txt"):
         shutil.copy(WEB / name, folder / "bendy")
     for name in THREE_FILES:

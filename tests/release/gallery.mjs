@@ -17,7 +17,8 @@ async function open(address, condition) { // in a small picture: Chromium draws 
   await tab.setViewport({ width: 480, height: 480 });
   await tab.goto(server.address + address, { timeout: 120_000 });
   const isAlive = tab.waitForFunction(condition, { timeout: 240_000, polling: 200 }).catch((error) => problems.push(error.message));
-  await Promise.race([isAlive, new Promise((resolve) => tab.once('pageerror', resolve))]);
+  const isWrong = new Promise((resolve) => tab.on('pageerror', resolve).on('console', (said) => said.type() === 'error' && resolve()));
+  await Promise.race([isAlive, isWrong]);
   if (process.env.BENDY_PICTURES) await tab.screenshot({ path: join(process.env.BENDY_PICTURES, `${address.replaceAll('/', '_')}.png`) });
   wrong.push(...problems.map((problem) => `${address}: ${problem}`));
   await tab.close();
