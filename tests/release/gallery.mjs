@@ -19,7 +19,7 @@ async function open(address, condition) { // in a small picture: Chromium draws 
   const isAlive = tab.waitForFunction(condition, { timeout: 240_000, polling: 200 }).catch((error) => problems.push(error.message));
   const isWrong = new Promise((resolve) => tab.on('pageerror', resolve).on('console', (said) => said.type() === 'error' && resolve()));
   await Promise.race([isAlive, isWrong]);
-  if (process.env.BENDY_PICTURES) await tab.screenshot({ path: join(process.env.BENDY_PICTURES, `${address.replaceAll('/', '_')}.png`) });
+  if (process.env.BENDY_PICTURES) await tab.screenshot({ fullPage: true, path: join(process.env.BENDY_PICTURES, `${address.replaceAll('/', '_')}.png`) });
   wrong.push(...problems.map((problem) => `${address}: ${problem}`));
   await tab.close();
 }
