@@ -3,6 +3,7 @@
 What is in a file comes from packaging/notices/notices.json, which scripts/notices.py compares with each build; versions come from
 the packages that the build has used."""
 
+import functools
 import hashlib
 import json
 import re
@@ -28,8 +29,21 @@ def licence_of(library):
     return {"LGPL-2.1": "LGPL-2.1-or-later"}.get(library["licence"], re.sub(r"^(BSD-3-Clause)-.*", r"\1", library["licence"]))
 
 
+@functools.cache
+def installed():
+    """{package: version} of this machine."""
+    lines = run("dpkg-query", "-W", "-f", "${Package} ${Version}\n").splitlines()
+    return dict(line.split(" ") for line in lines)
+
+
 def debian_version(package):
-    return run("dpkg-query", "-W", "-f", "${Version}", package)
+    """The version that is installed, or, of a library that only cross builds use, that of the sources that they have unpacked."""
+    if installed().get(package):
+        return installed()[package]
+    source = package.removeprefix("lib").removesuffix("-dev")
+    for path in sorted(ROOT.glob(f"build/cross/*/sources/{source}-[0-9]*")):
+        return path.name.removeprefix(f"{source}-")
+    raise SystemExit(f"scripts/release.sh: no version of {package} is known: it is not installed, and no build has its sources")
 
 
 def npm_version(package):

@@ -127,9 +127,10 @@ def extract_program(system, folder):
 
 def pose_by(program, folder, **options):
     """Converts the example and poses it, by a program; returns the first vertex."""
-    (folder / "mannequin.bendy").unlink(missing_ok=True)
+    for name in ("mannequin.bendy", "pose.json"):
+        (folder / name).unlink(missing_ok=True)
     run(*program, "convert", "mannequin.glb", "-q", cwd=folder, **options)
-    run(*program, "pose", "mannequin.bendy", "--clip", CLIP, "--time", SECONDS, "-o", "pose.json", "--force", cwd=folder, **options)
+    run(*program, "pose", "mannequin.bendy", "--clip", CLIP, "--time", SECONDS, "-o", "pose.json", cwd=folder, **options)
     return json.loads((folder / "pose.json").read_text(encoding="utf-8"))["meshes"][0]["positions"][:3]
 
 
