@@ -10,8 +10,8 @@ faults = check_manifest.faults(manifest.read_text(encoding='utf-8'))
 if faults:
     sys.exit('\n'.join(f'{manifest}: {fault}' for fault in faults))
 with zipfile.ZipFile(folder / 'bendy_rig.zip', 'w') as archive:
-    for path in sorted([*(source / 'bendy_rig').glob('*.py'), manifest]):
-        entry = zipfile.ZipInfo(path.relative_to(source).as_posix())  # of 1980, whenever it was checked out
+    for path in [*sorted([*(source / 'bendy_rig').glob('*.py'), manifest]), source.resolve().parents[1] / 'LICENSE']:
+        entry = zipfile.ZipInfo(f'bendy_rig/{path.name}')  # of 1980, whenever it was checked out
         entry.compress_type, entry.create_system, entry.external_attr = zipfile.ZIP_DEFLATED, 3, 0o100644 << 16
         archive.writestr(entry, path.read_bytes())
 END

