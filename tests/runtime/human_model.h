@@ -27,6 +27,7 @@ struct HumanSpec {
     double thigh = 0.45, shin = 0.42;
     double hip_width = 0.2;
     std::uint32_t spine = 3;
+    bool is_detached = false;  ///< legs are not below the hips, feet not below the legs
     bool has_neck = true, has_toes = true, has_fingers = true;
     unsigned axes = 1;  ///< of the joints: other ones for another number; 0: as model space
     bool has_roles = true;
@@ -96,12 +97,14 @@ private:
     void add_leg(double side) {
         const std::string name = side > 0.0 ? "left" : "right";
         const double x = side * 0.5 * human_.hip_width;
-        const std::uint32_t upper =
-            add(name + "UpLeg", hips_, {x, human_.thigh + human_.shin + 0.08, 0}, of(side, Role::left_upper_leg));
+        const std::uint32_t upper = add(name + "UpLeg", human_.is_detached ? 0 : hips_,
+                                        {x, human_.thigh + human_.shin + 0.08, 0}, of(side, Role::left_upper_leg));
         const std::uint32_t lower =
             add(name + "Leg", upper, {x, human_.shin + 0.08, 0.01 * human_.thigh}, of(side, Role::left_lower_leg));
-        const std::uint32_t foot = add(name + "Foot", lower, {x, 0.08, 0}, of(side, Role::left_foot));
+        const std::uint32_t foot =
+            add(name + "Foot", human_.is_detached ? 0 : lower, {x, 0.08, 0}, of(side, Role::left_foot));
         if (human_.has_toes) add(name + "Toes", foot, {x, 0.02, 0.13}, of(side, Role::left_toes));
+        if (human_.is_detached) return;
         ChainRecord leg;
         leg.start = upper;
         leg.effector = foot;

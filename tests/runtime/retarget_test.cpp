@@ -117,6 +117,7 @@ TEST(Retarget, LimbsHaveTheSourcesDirections) {
         {.is_z_up = true, .axes = 4},
         {.arms_down = 50.0, .axes = 5},
         {.thigh = 0.3, .shin = 0.5, .hip_width = 0.3, .axes = 6},
+        {.facing = 90.0, .is_detached = true, .axes = 8},
         {.facing = 180.0,
          .is_z_up = true,
          .arms_down = 30.0,
@@ -387,6 +388,7 @@ const std::vector<HumanSpec> kBuilds{
     {.facing = 90.0, .thigh = 0.35, .shin = 0.5, .hip_width = 0.35, .axes = 3},
     {.is_z_up = true, .arms_down = 40.0, .thigh = 0.5, .shin = 0.35, .hip_width = 0.12, .axes = 4},
     {.facing = 180.0, .thigh = 0.2, .shin = 0.22, .hip_width = 0.3, .has_toes = false, .axes = 5},
+    {.thigh = 0.5, .shin = 0.35, .is_detached = true, .axes = 6},
 };
 
 TEST(Retarget, FeetStandWhereTheyAre) {

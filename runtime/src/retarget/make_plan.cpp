@@ -18,8 +18,6 @@
 namespace bendy {
 namespace {
 
-constexpr glm::dquat kNoTurn{1.0, 0.0, 0.0, 0.0};
-
 class PlanMaker {
 public:
     PlanMaker(RetargetPlan& plan, const Body& source, const Body& target)
@@ -34,8 +32,14 @@ public:
         for (std::uint32_t joint = 0; joint < pairs_.size(); ++joint) {
             if (pairs_[joint].a != kNone) add_moved(joint);
         }
+        for (const Constraint& constraint : plan_.target.constraints()) {
+            const bool counts = plan_.target.constraint(constraint.joint) == &constraint;
+            if (counts && moved_of_[constraint.joint] == kNone) plan_.other_constraints.push_back(&constraint);
+        }
+        plan_.held.resize(plan_.moved.size());
         plan_.turns.resize(plan_.source_joints.size() + plan_.mixed_turns.size());
         make_hips();
+        find_detached();
         make_limbs();
         match_morph_targets();
         return true;
@@ -117,11 +121,13 @@ private:
             const MovedJoint& carrier = plan_.moved[above];
             const JointPair& carrying = pairs_[carrier.joint];
             moved.above = carrier.turn;
+            moved.carrier = above;
             moved.before = glm::conjugate(source_rest(carrying) * back * carrying.align * target_.space(parent));
         }
         moved.is_prop = pair.is_prop;
         if (moved.is_prop) moved.travel = travel_of(moved.source, joint);
         moved.is_copy = is_copy(joint, above);
+        moved.constraint = plan_.target.constraint(joint);
         moved_of_[joint] = static_cast<std::uint32_t>(plan_.moved.size());
         plan_.moved.push_back(moved);
     }
@@ -163,13 +169,38 @@ private:
         hips.source = {source_.joint(Role::hips), source_.joint(Role::hips)};
         if (plan_.options.rest_poses == RestPoses::measured) {
             hips.source = {source_.joint(Role::left_upper_leg), source_.joint(Role::right_upper_leg)};
-            const glm::dvec3 middle =
-                0.5 * (target_.place(Role::left_upper_leg) + target_.place(Role::right_upper_leg));
-            hips.middle = glm::dvec3(inverse * glm::dvec4(middle, 1.0));
+            hips.middle = 0.5 * (place_in(joint, target_.joint(Role::left_upper_leg)) +
+                                 place_in(joint, target_.joint(Role::right_upper_leg)));
         }
         const auto parents = plan_.target.parents();
         for (std::uint32_t above = parents[joint]; above != kNone; above = parents[above]) hips.above.push_back(above);
         std::reverse(hips.above.begin(), hips.above.end());
+    }
+
+    void find_detached() {
+        constexpr std::array<std::pair<Role, Role>, 12> kHeld{{{Role::hips, Role::left_upper_leg},
+                                                               {Role::hips, Role::right_upper_leg},
+                                                               {Role::left_upper_leg, Role::left_lower_leg},
+                                                               {Role::right_upper_leg, Role::right_lower_leg},
+                                                               {Role::left_lower_leg, Role::left_foot},
+                                                               {Role::right_lower_leg, Role::right_foot},
+                                                               {Role::left_foot, Role::left_toes},
+                                                               {Role::right_foot, Role::right_toes},
+                                                               {Role::left_upper_arm, Role::left_lower_arm},
+                                                               {Role::right_upper_arm, Role::right_lower_arm},
+                                                               {Role::left_lower_arm, Role::left_hand},
+                                                               {Role::right_lower_arm, Role::right_hand}}};
+        for (const auto& [by, role] : kHeld) {
+            const std::uint32_t carrier = target_.joint(by), joint = target_.joint(role);
+            if (joint == kNone || links_between(carrier, joint) != 0) continue;
+            if (moved_of_[joint] != kNone && plan_.moved[moved_of_[joint]].is_copy) continue;
+            plan_.detached.push_back({joint, carrier, place_in(carrier, joint)});
+        }
+    }
+
+    /// Returns where a joint of the target is at rest, in the space of another one.
+    [[nodiscard]] glm::dvec3 place_in(std::uint32_t space, std::uint32_t joint) const {
+        return {glm::inverse(target_.rest(space)) * glm::dvec4(target_.place(joint), 1.0)};
     }
 
     void make_limbs() {
@@ -204,18 +235,24 @@ private:
         if (glm::dot(way, way) > 0.0) bend -= way * (glm::dot(bend, way) / glm::dot(way, way));
         if (!(glm::length(bend) > kBent * limb.length)) bend = side;
         limb.bend = glm::conjugate(target_.turn(limb.upper)) * glm::normalize(bend);
-        const std::uint32_t links = links_between(limb.upper, limb.end);
-        const bool has_middle = links_between(limb.upper, limb.lower) != 0 && links_between(limb.lower, limb.end) != 0;
-        constexpr std::uint32_t kPlain = kLimbLinks;
+        const bool is_detached = links_between(limb.lower, limb.end) == 0;
+        const std::uint32_t tip = is_detached ? limb.lower : limb.end;
+        const std::uint32_t links = links_between(limb.upper, tip);
+        const std::uint32_t plain = is_detached ? kLimbLinks - 1 : kLimbLinks;
         for (const Chain& chain : plan_.target.chains()) {
-            if (links != kPlain && chain.record.start == limb.upper && chain.record.effector == limb.end)
+            if (!is_detached && links != plain && chain.record.start == limb.upper && chain.record.effector == tip)
                 limb.chain = &chain;
         }
         limb.own.record.start = limb.upper;
-        limb.own.record.effector = limb.end;
+        limb.own.record.effector = tip;
         limb.own.links = links;
         limb.own.record.solver = static_cast<std::uint8_t>(Solver::two_bone);
-        limb.can_reach = has_middle && limb.length > 0.0 && (links == kPlain || limb.chain != nullptr);
+        if (is_detached) {
+            const glm::vec3 place(place_in(limb.lower, limb.end));
+            limb.own.record.tip_offset = {place.x, place.y, place.z};
+        }
+        const bool has_middle = links_between(limb.upper, limb.lower) != 0;
+        limb.can_reach = has_middle && limb.length > 0.0 && (links == plain || limb.chain != nullptr);
     }
 
     void make_foot(FootPlan& foot, Role ankle, Role toes) {
@@ -224,8 +261,7 @@ private:
         foot.heel = make_contact(ankle);
         if (source_.joint(toes) == kNone || target_.joint(toes) == kNone) return;
         foot.toes = make_contact(toes);
-        const glm::dmat4 inverse = glm::inverse(target_.rest(target_.joint(ankle)));
-        foot.toes_at = glm::dvec3(inverse * glm::dvec4(target_.place(toes), 1.0));
+        foot.toes_at = place_in(target_.joint(ankle), target_.joint(toes));
     }
 
     [[nodiscard]] ContactPlan make_contact(Role role) const {

@@ -137,6 +137,7 @@ Result<Retargeted, CallError> retarget(Pose& pose, Retarget& retarget, Pose& sou
         to.set_rest();
         return CallError::not_finite;
     }
+    place_detached(plan, to);
     set_morph_targets(plan, from, to);
     return settle(plan, source, pose, state, contacts);
 }

@@ -15,6 +15,8 @@
 
 namespace bendy {
 
+inline constexpr glm::dquat kNoTurn{1.0, 0.0, 0.0, 0.0};
+
 /// A joint of the source whose orientation is computed in each frame.
 struct SourceJoint {
     std::uint32_t joint = 0;
@@ -36,11 +38,13 @@ struct MovedJoint {
     std::uint32_t joint = 0;
     std::uint32_t source = kNone;  ///< the source's joint; the nearer one of a mixed turn
     std::uint32_t turn = 0;
-    std::uint32_t above = kNone;  ///< the turn of the nearest moved joint above; kNone: none
+    std::uint32_t above = kNone;    ///< the turn of the nearest moved joint above; kNone: none
+    std::uint32_t carrier = kNone;  ///< that joint, among the moved ones
     glm::dquat before{1, 0, 0, 0}, after{1, 0, 0, 0};
-    bool is_copy = false;    ///< all of the source joint's numbers
-    bool is_prop = false;    ///< translations and scales come along
-    glm::dmat3 travel{1.0};  ///< of a prop: from the source's translation since rest to the target's
+    bool is_copy = false;                    ///< all of the source joint's numbers
+    const Constraint* constraint = nullptr;  ///< of the target's joint, in poses
+    bool is_prop = false;                    ///< translations and scales come along
+    glm::dmat3 travel{1.0};                  ///< of a prop: from the source's translation since rest to the target's
 };
 
 /// What the hips' position follows.
@@ -49,6 +53,12 @@ struct HipsPlan {
     std::array<std::uint32_t, 2> source{};  ///< joints whose middle travels: the hip joints
     glm::dvec3 middle{0.0};                 ///< of the target's, in the space of its hips at rest
     std::vector<std::uint32_t> above;       ///< joints above the hips, from the root
+};
+
+/// A joint of the target that the body holds, but not the skeleton: a foot beside its leg, a leg beside the hips.
+struct DetachedJoint {
+    std::uint32_t joint = 0, carrier = 0;
+    glm::dvec3 place{0.0};  ///< at rest, in the carrier's space
 };
 
 /// From positions in the source's model space to the target's.
@@ -98,6 +108,8 @@ struct RetargetPlan {
     std::vector<SourceJoint> source_joints;
     std::vector<MixedTurn> mixed_turns;
     std::vector<MovedJoint> moved;
+    std::vector<const Constraint*> other_constraints;  ///< of joints that are not moved
+    std::vector<DetachedJoint> detached;               ///< from the trunk outwards
     HipsPlan hips;
     SpaceMap map;
     glm::dvec3 source_up{0, 1, 0}, up{0, 1, 0};
@@ -105,6 +117,7 @@ struct RetargetPlan {
     std::array<LimbPlan, 4> limbs;  ///< left leg, right leg, left arm, right arm
     std::array<FootPlan, 2> feet;
 
+    std::vector<glm::dquat> held;   ///< work memory: of each moved joint, by what limits above it have turned it
     std::vector<glm::dquat> turns;  ///< work memory: of the source joints, then the mixed ones
 };
 

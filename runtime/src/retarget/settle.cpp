@@ -5,6 +5,7 @@
 #include "ik/constrain_joint.h"
 #include "ik/ik_quick.h"
 #include "math/rigid_part.h"
+#include "math/rotation.h"
 #include "pose/pose_state.h"
 
 #include <glm/geometric.hpp>
@@ -22,7 +23,6 @@ constexpr std::size_t kLegs = 2;  // the first limbs
 
 /// A limb in one frame, model space.
 struct LimbFrame {
-    glm::dvec3 middle{0.0};
     double extended = 0.0;                ///< metres from its start to its end, as in the source
     glm::dvec3 wanted{0.0};               ///< of its end
     glm::dvec3 bend{0.0};                 ///< unit: where knee or elbow point
@@ -32,7 +32,7 @@ struct LimbFrame {
 
 class Settling {
 public:
-    Settling(const RetargetPlan& plan, Pose& source, Pose& pose)
+    Settling(RetargetPlan& plan, Pose& source, Pose& pose)
         : plan_(plan), source_(PoseState::of(source)), pose_(pose), to_(PoseState::of(pose)) {}
 
     Retargeted run(RetargetState& state, const std::optional<ContactWeights>& contacts) {
@@ -54,7 +54,6 @@ private:
     void read_limb(const LimbPlan& plan, LimbFrame& limb) const {
         const glm::dmat4 upper = to_.fresh_matrix(plan.upper);
         const glm::dmat4 end = to_.fresh_matrix(plan.end);
-        limb.middle = place(plan.lower);
         limb.wanted = glm::dvec3(end[3]);
         limb.extended = glm::length(limb.wanted - glm::dvec3(upper[3]));
         limb.bend = glm::dmat3(upper) * plan.bend;
@@ -84,17 +83,37 @@ private:
     /// NaN counts as 0.
     static float fraction(float weight) { return weight > 0.0f ? std::min(weight, 1.0f) : 0.0f; }
 
+    /// Constrains the joints from the trunk outwards. What a limit holds back, the joints below make up for: a hand
+    /// keeps its orientation in space even if the elbow cannot turn.
     void constrain_all() {
-        for (const Constraint& constraint : plan_.target.constraints()) {
-            if (plan_.target.constraint(constraint.joint) == &constraint) constrain(constraint);
-        }
+        for (std::size_t k = 0; k < plan_.moved.size(); ++k) constrain_moved(k);
+        for (const Constraint* constraint : plan_.other_constraints) (void)constrain(*constraint);
+        place_detached(plan_, to_);
     }
 
-    void constrain(const Constraint& constraint) {
+    void constrain_moved(std::size_t number) {
+        const MovedJoint& moved = plan_.moved[number];
+        const bool is_held = moved.carrier != kNone && plan_.held[moved.carrier] != kNoTurn;
+        glm::dquat& held = plan_.held[number];
+        held = kNoTurn;
+        if (!is_held && moved.constraint == nullptr) return;
+        const glm::dquat wanted = plan_.turns[moved.turn] * moved.after;
+        const glm::dquat space = moved.above == kNone ? glm::conjugate(moved.before)
+                                                      : plan_.turns[moved.above] * glm::conjugate(moved.before);
+        const glm::dquat actual_space = is_held ? plan_.held[moved.carrier] * space : space;
+        if (is_held) to_.set_rotation(moved.joint, glm::quat(glm::normalize(glm::conjugate(actual_space) * wanted)));
+        if (moved.constraint == nullptr || !constrain(*moved.constraint)) return;
+        held = glm::normalize(actual_space * glm::dquat(to_.local_of(moved.joint).rotation) * glm::conjugate(wanted));
+    }
+
+    /// Returns whether the joint was outside.
+    bool constrain(const Constraint& constraint) {
         const auto angle = static_cast<float>(constrain_joint(pose_, constraint));
-        if (angle <= result_.turned) return;
-        result_.turned = angle;
-        result_.turned_joint = constraint.joint;
+        if (angle > result_.turned) {
+            result_.turned = angle;
+            result_.turned_joint = constraint.joint;
+        }
+        return angle > 0.0f;
     }
 
     /// Lowers the hips until the feet that stand on the ground are within reach.
@@ -111,9 +130,9 @@ private:
         JointTransform local = to_.local_of(plan_.hips.joint);
         local.translation += glm::vec3(glm::inverse(space) * shift);
         to_.set_local(plan_.hips.joint, local);
+        place_detached(plan_, to_);
         for (LimbFrame& limb : limbs_) {
             limb.wanted += (1.0 - limb.planted) * shift;
-            limb.middle += shift;
         }
         result_.lowered = static_cast<float>(lowered);
     }
@@ -131,10 +150,11 @@ private:
         return limb.planted * std::clamp(lowered, 0.0, kMost * plan.length);
     }
 
+    /// Only feet that stand reach: everything else keeps its direction as far as limits allow.
     void finish(const LimbPlan& plan, const LimbFrame& limb) {
         constexpr double kThere = 1e-5;  // of the length
         double missed = glm::length(place(plan.end) - limb.wanted);
-        if (missed > kThere * plan.length) {
+        if (limb.planted > 0.0 && missed > kThere * plan.length) {
             reach_for(plan, limb);
             missed = glm::length(place(plan.end) - limb.wanted);
         }
@@ -143,25 +163,55 @@ private:
         result_.missed_joint = plan.end;
     }
 
+    /// Bends a limb that is straight, or bent to the wrong side, a little to the side that it bends to, so that a
+    /// solver continues from there. Turns neither of its bones about its axis.
+    void bend_a_little(const LimbPlan& plan, const LimbFrame& limb) {
+        constexpr double kLeast = 0.03;  // of the length
+        const glm::dvec3 start = place(plan.upper), middle = place(plan.lower), end = place(plan.end);
+        const glm::dvec3 way = end - start;
+        const double length = glm::dot(way, way);
+        if (!(length > 0.0)) return;
+        const auto across = [&](const glm::dvec3& v) { return v - way * (glm::dot(v, way) / length); };
+        const glm::dvec3 side = across(limb.bend);
+        if (!(glm::length(side) > 0.1)) return;
+        const double bent = glm::dot(middle - start, glm::normalize(side));
+        if (bent > kLeast * plan.length) return;
+        const glm::dvec3 moved = middle + (kLeast * plan.length - bent) * glm::normalize(side);
+        const glm::dquat upper = between(middle - start, moved - start);
+        turn_joint(plan.upper, upper);
+        turn_joint(plan.lower, between(upper * (end - middle), end - moved));
+    }
+
+    /// Turns a joint with all below it in model space.
+    void turn_joint(std::uint32_t joint, const glm::dquat& turn) {
+        const glm::dquat space = rigid_rotation(to_.fresh_matrix(plan_.target.parents()[joint]));
+        const glm::dquat local = glm::conjugate(space) * turn * space * glm::dquat(to_.local_of(joint).rotation);
+        to_.set_rotation(joint, glm::quat(glm::normalize(local)));
+    }
+
     void reach_for(const LimbPlan& plan, const LimbFrame& limb) {
         const Chain& chain = plan.chain != nullptr ? *plan.chain : plan.own;
         ReachOptions options;
         options.solver = Solver::two_bone;
         options.obey_constraints = plan_.options.obey_constraints;
-        // The knee stays where it was; a straight leg bends to the side that it bends to at rest.
-        constexpr double kAside = 0.05;
-        options.pole = glm::vec3(limb.middle + kAside * plan.length * limb.bend);
+        // Without a pole the solver keeps the plane in which a limb is bent.
+        options.iterations = kIterations;
+        options.restarts = 0;
+        bend_a_little(plan, limb);
         const ReachTarget target{glm::vec3(limb.wanted)};
         if (!reach_quickly(chain, target, pose_, options)) (void)reach_at_length(chain, target, pose_, options);
+        place_detached(plan_, to_);
         const glm::dquat space = rigid_rotation(to_.fresh_matrix(plan_.target.parents()[plan.end]));
         to_.set_rotation(plan.end, glm::quat(glm::normalize(glm::conjugate(space) * limb.turn)));
         if (!plan_.options.obey_constraints) return;
         for (const std::uint32_t joint : {plan.upper, plan.lower, plan.end}) {
-            if (const Constraint* constraint = plan_.target.constraint(joint)) constrain(*constraint);
+            if (const Constraint* constraint = plan_.target.constraint(joint)) (void)constrain(*constraint);
         }
     }
 
-    const RetargetPlan& plan_;
+    static constexpr std::uint32_t kIterations = 10;  // of least squares, where limits stop the two-bone solver
+
+    RetargetPlan& plan_;
     PoseState& source_;
     Pose& pose_;
     PoseState& to_;
@@ -171,7 +221,18 @@ private:
 
 }  // namespace
 
-Retargeted settle(const RetargetPlan& plan, Pose& source, Pose& pose, RetargetState& state,
+void place_detached(const RetargetPlan& plan, PoseState& target) {
+    for (const DetachedJoint& detached : plan.detached) {
+        const glm::dvec4 place = target.fresh_matrix(detached.carrier) * glm::dvec4(detached.place, 1.0);
+        const glm::dmat4 space = target.fresh_matrix(plan.target.parents()[detached.joint]);
+        if (!(std::abs(glm::determinant(space)) > 1e-30)) continue;
+        JointTransform local = target.local_of(detached.joint);
+        local.translation = glm::vec3(glm::inverse(space) * place);
+        target.set_local(detached.joint, local);
+    }
+}
+
+Retargeted settle(RetargetPlan& plan, Pose& source, Pose& pose, RetargetState& state,
                   const std::optional<ContactWeights>& contacts) {
     return Settling(plan, source, pose).run(state, contacts);
 }

@@ -8,8 +8,13 @@
 
 namespace bendy {
 
+struct PoseState;
+
+/// Moves joints that the skeleton does not hold to where the body has them.
+void place_detached(const RetargetPlan& plan, PoseState& target);
+
 /// Brings a retargeted pose inside the target's constraints, and hands and feet to their places.
-Retargeted settle(const RetargetPlan& plan, Pose& source, Pose& pose, RetargetState& state,
+Retargeted settle(RetargetPlan& plan, Pose& source, Pose& pose, RetargetState& state,
                   const std::optional<ContactWeights>& contacts);
 
 }  // namespace bendy

@@ -66,7 +66,6 @@ FootContact find_contact(const RetargetPlan& plan, const FootPlan& foot, PoseSta
     found.heel = eased(height_of(plan, foot.heel, source), kHeelStands, kHeelLeft);
     if (foot.toes.source == kNone) return found;
     const float toes = eased(height_of(plan, foot.toes, source), kToesStand, kToesLeft);
-    found.heel *= toes;
     if (found.heel > 0.0f || last_toes > 0.0f) found.toes = toes;
     return found;
 }
@@ -92,7 +91,11 @@ Standing stand(const RetargetPlan& plan, const FootPlan& plan_of_foot, PoseState
     }
     heel.weight = contact.heel;
     toes.weight = contact.toes;
-    return standing;
+    // Who lies or sits may be built so differently that a foot cannot be where it would be: it keeps its direction
+    // then.
+    constexpr double kNear = 0.12, kFar = 0.3;  // leg lengths
+    const double share = eased(glm::length(standing.ankle - foot.ankle) / plan.leg, kNear, kFar);
+    return {glm::mix(foot.ankle, standing.ankle, share), share * standing.weight};
 }
 
 }  // namespace bendy

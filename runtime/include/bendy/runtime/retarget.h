@@ -121,8 +121,9 @@ private:
 };
 
 /// Sets `pose`, of the target, to the source's pose. Where neither a constraint nor a contact acts, limbs have the
-/// directions of the source's. Then constraints are obeyed; hands that they moved, and feet that stand on the ground,
-/// are brought to their places by IK. Retargeting to a model of the same build copies the numbers bit by bit.
+/// directions of the source's. What a constraint holds back, the joints below make up for as far as theirs allow. Feet
+/// that stand on the ground are then brought to their places by IK, within the constraints. Retargeting to a model of
+/// the same build copies the numbers bit by bit.
 ///
 /// Errors: other_model, and nothing changes; not_finite, and the pose is at rest.
 /// \param source    not `pose` itself
