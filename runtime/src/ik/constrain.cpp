@@ -47,11 +47,13 @@ glm::vec3 clamp_translation(const Constraint& constraint, const JointTransform& 
     return legal == d ? translation : glm::vec3(glm::dvec3(rest.translation) + axes * legal);
 }
 
-double constrain_joint(Pose& pose, const Constraint& constraint) {
+double constrain_joint(Pose& pose, const Constraint& constraint, Legal which) {
     const JointTransform& rest = pose.model().joints()[constraint.joint].rest;
     JointTransform joint = pose.local(constraint.joint);
     const glm::dquat R = to_constraint_space(constraint, rest.rotation, joint.rotation);
-    const glm::dquat legal = clamp_rotation(constraint, R);
+    const glm::dquat legal = which == Legal::nearest
+                                 ? clamp_rotation(constraint, R)
+                                 : quick_legal_rotation(constraint.model, constraint.euler_order, constraint.shape, R);
     const double angle = angle_between(legal, R);
     const bool is_outside = angle > kRounding;
     if (is_outside) joint.rotation = from_constraint_space(constraint, rest.rotation, legal);
@@ -63,7 +65,7 @@ double constrain_joint(Pose& pose, const Constraint& constraint) {
 void constrain(Pose& pose) {
     const Model& model = pose.model();
     for (const Constraint& constraint : model.constraints()) {
-        if (model.constraint(constraint.joint) == &constraint) constrain_joint(pose, constraint);
+        if (model.constraint(constraint.joint) == &constraint) constrain_joint(pose, constraint, Legal::nearest);
     }
 }
 

@@ -108,7 +108,7 @@ private:
 
     /// Returns whether the joint was outside.
     bool constrain(const Constraint& constraint) {
-        const auto angle = static_cast<float>(constrain_joint(pose_, constraint));
+        const auto angle = static_cast<float>(constrain_joint(pose_, constraint, Legal::quick));
         if (angle > result_.turned) {
             result_.turned = angle;
             result_.turned_joint = constraint.joint;
@@ -154,13 +154,22 @@ private:
     void finish(const LimbPlan& plan, const LimbFrame& limb) {
         constexpr double kThere = 1e-5;  // of the length
         double missed = glm::length(place(plan.end) - limb.wanted);
-        if (limb.planted > 0.0 && missed > kThere * plan.length) {
-            reach_for(plan, limb);
-            missed = glm::length(place(plan.end) - limb.wanted);
-        }
+        if (limb.planted > 0.0 && missed > kThere * plan.length) missed = try_to_reach(plan, limb, missed);
         if (missed <= double{result_.missed}) return;
         result_.missed = static_cast<float>(missed);
         result_.missed_joint = plan.end;
+    }
+
+    /// Leaves the limb as it is if it cannot come nearer within the limits. Returns the distance that is left.
+    double try_to_reach(const LimbPlan& plan, const LimbFrame& limb, double distance) {
+        const std::array joints{plan.upper, plan.lower, plan.end};
+        std::array<JointTransform, joints.size()> before;
+        for (std::size_t k = 0; k < joints.size(); ++k) before[k] = to_.local_of(joints[k]);
+        reach_for(plan, limb);
+        const double left = glm::length(place(plan.end) - limb.wanted);
+        if (left <= distance) return left;
+        for (std::size_t k = 0; k < joints.size(); ++k) to_.set_local(joints[k], before[k]);
+        return distance;
     }
 
     /// Bends a limb that is straight, or bent to the wrong side, a little to the side that it bends to, so that a
@@ -197,7 +206,8 @@ private:
         // Without a pole the solver keeps the plane in which a limb is bent.
         options.iterations = kIterations;
         options.restarts = 0;
-        bend_a_little(plan, limb);
+        // A knee with limits knows where it bends to.
+        if (to_.data->ik_constraint(plan.lower) == kNone || !plan_.options.obey_constraints) bend_a_little(plan, limb);
         const ReachTarget target{glm::vec3(limb.wanted)};
         if (!reach_quickly(chain, target, pose_, options)) (void)reach_at_length(chain, target, pose_, options);
         place_detached(plan_, to_);
@@ -209,7 +219,7 @@ private:
         }
     }
 
-    static constexpr std::uint32_t kIterations = 10;  // of least squares, where limits stop the two-bone solver
+    static constexpr std::uint32_t kIterations = 4;  // of least squares, where limits stop the two-bone solver
 
     RetargetPlan& plan_;
     PoseState& source_;
