@@ -550,6 +550,33 @@ TEST(Retarget, RefusesOtherModelsAndNumbersThatAreNotFinite) {
     }
 }
 
+TEST(Retarget, TakesRolesOfWrongJoints) {
+    Human whole(HumanSpec{});
+    std::vector<RoleRecord> roles(whole.model().roles().begin(), whole.model().roles().end());
+    std::mt19937 random(1);
+    for (int round = 0; round < 100; ++round) {
+        for (std::size_t k = roles.size() - 1; k > 0; --k) std::swap(roles[k].role, roles[random() % (k + 1)].role);
+        test::ModelSpec spec = HumanModel(HumanSpec{}).spec;
+        spec.more = {test::make_leaf(FourCC("ROLE"), std::as_bytes(std::span(roles)))};
+        const test::Owned odd(test::build_file(spec));
+        Pose pose(*odd);
+        auto to_odd = Retarget::make(whole.model(), *odd);
+        auto from_odd = Retarget::make(*odd, whole.model());
+        ASSERT_EQ(to_odd.has_value(), from_odd.has_value());
+        if (!to_odd) {
+            EXPECT_EQ(to_odd.error().reason, RetargetError::Reason::no_size);
+            continue;
+        }
+        RetargetState state, back;
+        whole.pose_at_random(static_cast<unsigned>(round), 0.3);
+        const ContactWeights standing{1, 1, 1, 1};
+        EXPECT_TRUE(retarget(pose, *to_odd, whole.pose(), state, standing));
+        EXPECT_TRUE(retarget(whole.pose(), *from_odd, pose, back, standing));
+        for (const JointTransform& local : test::locals_of(pose))
+            EXPECT_TRUE(std::isfinite(local.rotation.x + local.translation.y)) << round;
+    }
+}
+
 TEST(Retarget, ACopyDoesTheSame) {
     Human source(HumanSpec{});
     Human target(HumanSpec{.axes = 2});
