@@ -334,6 +334,8 @@ def check_enumerations(check):
                     check.understood(sizes, 'component_size of records.h')
                     check.same(name, 'bytes of ComponentType', [row[2] for row in rows], re.findall(r'\d+', sizes[1]))
     check.same_keys('spec', 'enumeration', list(spec), list(code))
+    roles = json.loads((check.spec / 'rig.schema.json').read_text(encoding='utf-8'))['properties']['roles']
+    check.same('spec/rig.schema.json', 'roles', roles['propertyNames']['enum'], code['Role'][1:])  # without none
 
 
 def check_leaves(check, chunks, records):

@@ -112,15 +112,16 @@ struct KindOfChunk {
 };
 /// Chunk ids by kind. A chunk belongs to the kind of its nearest listed ancestor, itself included.
 constexpr std::array kKinds{KindOfChunk{FourCC("SKIN"), "skeleton"}, KindOfChunk{FourCC("JNTS"), "skeleton"},
-                            KindOfChunk{FourCC("JNAM"), "skeleton"}, KindOfChunk{FourCC("IKCH"), "skeleton"},
-                            KindOfChunk{FourCC("PALT"), "PALT"},     KindOfChunk{FourCC("POSI"), "POSI"},
-                            KindOfChunk{FourCC("NORM"), "NORM"},     KindOfChunk{FourCC("TANG"), "TANG"},
-                            KindOfChunk{FourCC("TEXC"), "TEXC"},     KindOfChunk{FourCC("COLR"), "COLR"},
-                            KindOfChunk{FourCC("BONE"), "BONE"},     KindOfChunk{FourCC("WGHT"), "WGHT"},
-                            KindOfChunk{FourCC("INDX"), "indices"},  KindOfChunk{FourCC("TARG"), "targets"},
-                            KindOfChunk{FourCC("FRMS"), "frames"},   KindOfChunk{FourCC("NLST"), "NORM"},
-                            KindOfChunk{FourCC("LODD"), "LODD"},     KindOfChunk{FourCC("CYCL"), "clips"},
-                            KindOfChunk{FourCC("TEXT"), "textures"}, KindOfChunk{FourCC("HEAD"), "other"}};
+                            KindOfChunk{FourCC("JNAM"), "skeleton"}, KindOfChunk{FourCC("ROLE"), "skeleton"},
+                            KindOfChunk{FourCC("IKCH"), "skeleton"}, KindOfChunk{FourCC("PALT"), "PALT"},
+                            KindOfChunk{FourCC("POSI"), "POSI"},     KindOfChunk{FourCC("NORM"), "NORM"},
+                            KindOfChunk{FourCC("TANG"), "TANG"},     KindOfChunk{FourCC("TEXC"), "TEXC"},
+                            KindOfChunk{FourCC("COLR"), "COLR"},     KindOfChunk{FourCC("BONE"), "BONE"},
+                            KindOfChunk{FourCC("WGHT"), "WGHT"},     KindOfChunk{FourCC("INDX"), "indices"},
+                            KindOfChunk{FourCC("TARG"), "targets"},  KindOfChunk{FourCC("FRMS"), "frames"},
+                            KindOfChunk{FourCC("NLST"), "NORM"},     KindOfChunk{FourCC("LODD"), "LODD"},
+                            KindOfChunk{FourCC("CYCL"), "clips"},    KindOfChunk{FourCC("TEXT"), "textures"},
+                            KindOfChunk{FourCC("HEAD"), "other"}};
 
 }  // namespace
 

@@ -250,7 +250,8 @@ struct Material {
 
 struct Scene {
     std::string name;
-    std::vector<Joint> joints;  ///< pre-order: parents first, siblings in the source's order
+    std::vector<Joint> joints;      ///< pre-order: parents first, siblings in the source's order
+    std::vector<RoleRecord> roles;  ///< what joints are in the body, ascending by joint; each role and place once
     std::vector<Chain> chains;
     std::vector<Mesh> meshes;
     std::vector<LodLevel> levels;  ///< by error; empty if no mesh has a collapse sequence

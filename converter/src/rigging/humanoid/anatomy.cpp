@@ -95,7 +95,8 @@ private:
         joints_.add_bend(upper_arm, lower_arm, BodyJoint::elbow,
                          end_of(found_, rest_, right ? Limb::right_arm : Limb::left_arm), stance_.forward, kForearm);
         if (!found_.has_split_hands) {
-            const auto to_thumb = along(hand, joint(HumanBone::left_thumb));
+            const std::uint32_t first = joint(HumanBone::left_thumb_metacarpal);
+            const auto to_thumb = along(hand, first != kNone ? first : joint(HumanBone::left_thumb_proximal));
             joints_.add_swing(hand, BodyJoint::wrist, along(lower_arm, hand), to_thumb ? *to_thumb : stance_.forward,
                               kHand);
         }

@@ -212,7 +212,7 @@ private:
             found_.bones[of_side(HumanBone::left_shoulder, side)] = shoulder;
         if (hand == kNone) return;
         if (names_[hand] && names_[hand]->rank != 0 && children_[lower].size() > 1) found_.has_split_hands = true;
-        found_.bones[of_side(HumanBone::left_thumb, side)] = pick(BodyPart::thumb, side, hand);
+        found_.bones[of_side(HumanBone::left_thumb_metacarpal, side)] = pick(BodyPart::thumb, side, hand);
     }
 
     void find_leg(BodySide side) {

@@ -8,31 +8,6 @@
 namespace bendy::converter {
 namespace {
 
-constexpr std::array<std::string_view, kHumanBones> kVrmNames{"hips",
-                                                              "spine",
-                                                              "chest",
-                                                              "upperChest",
-                                                              "neck",
-                                                              "head",
-                                                              "leftShoulder",
-                                                              "leftUpperArm",
-                                                              "leftLowerArm",
-                                                              "leftHand",
-                                                              "leftThumbProximal",
-                                                              "leftUpperLeg",
-                                                              "leftLowerLeg",
-                                                              "leftFoot",
-                                                              "leftToes",
-                                                              "rightShoulder",
-                                                              "rightUpperArm",
-                                                              "rightLowerArm",
-                                                              "rightHand",
-                                                              "rightThumbProximal",
-                                                              "rightUpperLeg",
-                                                              "rightLowerLeg",
-                                                              "rightFoot",
-                                                              "rightToes"};
-
 bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
@@ -43,8 +18,7 @@ bool is_lower(char c) {
     return c >= 'a' && c <= 'z';
 }
 
-/// Splits a name into lower-case words and numbers, with a space before, between and after them:
-/// `mixamorig:LeftForeArm_010` gives " left fore arm 010 ".
+/// Splits a name into words, with a space before, between and after them.
 std::string words_of(std::string_view name) {
     if (const std::size_t space = name.find_last_of(":|"); space != std::string_view::npos)
         name.remove_prefix(space + 1);
@@ -66,13 +40,9 @@ std::string words_of(std::string_view name) {
     return words;
 }
 
-bool has_word(std::string_view words, std::string_view word) {
-    return words.find(' ' + std::string(word) + ' ') != std::string_view::npos;
-}
-
 template <std::size_t N>
-bool has_any(std::string_view words, const std::array<std::string_view, N>& list) {
-    return std::any_of(list.begin(), list.end(), [&](std::string_view word) { return has_word(words, word); });
+bool has_any(const NameWords& name, const std::array<std::string_view, N>& list) {
+    return std::any_of(list.begin(), list.end(), [&](std::string_view word) { return name.has(word); });
 }
 
 /// Words that mark joints without a limb of their own.
@@ -153,29 +123,17 @@ constexpr std::array kSpellings{
     Spelling{"waist", BodyPart::spine},
 };
 
-BodySide side_of(std::string_view words) {
-    if (has_word(words, "left") || has_word(words, "l")) return BodySide::left;
-    if (has_word(words, "right") || has_word(words, "r")) return BodySide::right;
-    return BodySide::none;
-}
-
 bool is_of_a_limb(BodyPart part) {
     return part >= BodyPart::shoulder;
 }
 
-/// The only word besides sides, prefixes and numbers; empty if there are several.
-std::string_view only_word(std::string_view words) {
-    std::string_view only;
-    for (std::size_t from = 1; from < words.size();) {
-        const std::size_t end = std::min(words.find(' ', from), words.size());
-        const std::string_view word = words.substr(from, end - from);
-        from = end + 1;
-        if (word.empty() || is_digit(word.front())) continue;
-        if (std::find(kNoise.begin(), kNoise.end(), word) != kNoise.end()) continue;
-        if (!only.empty()) return {};
-        only = word;
-    }
-    return only;
+/// VRM 0.x names the bones of the thumb as those of the other fingers.
+std::string name_in_vrm_1(const std::string& name) {
+    if (name == "leftThumbProximal" || name == "rightThumbProximal")
+        return name.substr(0, name.find("Proximal")) + "Metacarpal";
+    if (name == "leftThumbIntermediate" || name == "rightThumbIntermediate")
+        return name.substr(0, name.find("Intermediate")) + "Proximal";
+    return name;
 }
 
 /// Fills a humanoid from JSON, bone by bone.
@@ -242,7 +200,7 @@ void read_bones_0(const Json& vrm, const std::string& place, Reader& reader, Rep
             reader.warn("a VRM bone without a name is left out", at);
             continue;
         }
-        reader.add(entry["bone"].get<std::string>(), entry, at);
+        reader.add(name_in_vrm_1(entry["bone"].get<std::string>()), entry, at);
         if (const auto defaults = entry.find("useDefaultValues"); defaults != entry.end() && *defaults == false) {
             if (own_constraints++ == 0) first_constraint = at;
         }
@@ -255,33 +213,82 @@ void read_bones_0(const Json& vrm, const std::string& place, Reader& reader, Rep
 
 }  // namespace
 
-std::string_view vrm_name(HumanBone bone) {
-    return kVrmNames[static_cast<std::size_t>(bone)];
+std::string vrm_name(HumanBone bone) {
+    std::string name;
+    for (const char c : kValueNames<Role>[static_cast<std::size_t>(bone)]) {
+        const bool starts = !name.empty() && name.back() == '_';
+        if (starts) name.pop_back();
+        name += starts ? static_cast<char>(c - 'a' + 'A') : c;
+    }
+    return name;
 }
 
 std::optional<HumanBone> bone_of_vrm_name(std::string_view name) {
-    const auto* const found = std::find(kVrmNames.begin(), kVrmNames.end(), name);
-    if (found == kVrmNames.end()) return std::nullopt;
-    return static_cast<HumanBone>(found - kVrmNames.begin());
+    for (std::size_t bone = 1; bone < kHumanBones; ++bone) {
+        if (vrm_name(static_cast<HumanBone>(bone)) == name) return static_cast<HumanBone>(bone);
+    }
+    return std::nullopt;
+}
+
+NameWords::NameWords(std::string_view name) {
+    constexpr std::size_t kMaxBytes = 200;
+    words_ = name.size() > kMaxBytes ? " " : words_of(name);
+}
+
+std::size_t NameWords::find(std::string_view word) const {
+    for (std::size_t at = words_.find(word); at != std::string::npos; at = words_.find(word, at + 1)) {
+        if (at > 0 && words_[at - 1] == ' ' && words_[at + word.size()] == ' ') return at;
+    }
+    return std::string::npos;
+}
+
+std::string_view NameWords::after(std::string_view word) const {
+    const std::size_t at = find(word);
+    if (at == std::string::npos) return {};
+    const std::string_view rest = std::string_view(words_).substr(at + word.size() + 1);
+    return rest.substr(0, rest.find(' '));
+}
+
+BodySide NameWords::side() const {
+    if (has("left") || has("l")) return BodySide::left;
+    if (has("right") || has("r")) return BodySide::right;
+    return BodySide::none;
+}
+
+bool NameWords::is_helper() const {
+    return has_any(*this, kHelpers);
+}
+
+std::string_view NameWords::only_word() const {
+    const std::string_view words = words_;
+    std::string_view only;
+    for (std::size_t from = 1; from < words.size();) {
+        const std::size_t end = std::min(words.find(' ', from), words.size());
+        const std::string_view word = words.substr(from, end - from);
+        from = end + 1;
+        if (word.empty() || is_digit(word.front())) continue;
+        if (std::find(kNoise.begin(), kNoise.end(), word) != kNoise.end()) continue;
+        if (!only.empty()) return {};
+        only = word;
+    }
+    return only;
 }
 
 std::optional<BoneName> read_bone_name(std::string_view name) {
-    constexpr std::size_t kMaxBytes = 200;
-    if (name.size() > kMaxBytes) return std::nullopt;
-    const std::string words = words_of(name);
-    if (has_any(words, kHelpers) || has_any(words, kFingers)) return std::nullopt;
+    const NameWords words(name);
+    if (words.is_helper() || has_any(words, kFingers)) return std::nullopt;
     BoneName result;
-    result.side = side_of(words);
+    result.side = words.side();
     const auto* const spelling =
-        std::find_if(kSpellings.begin(), kSpellings.end(), [&](const Spelling& s) { return has_word(words, s.words); });
+        std::find_if(kSpellings.begin(), kSpellings.end(), [&](const Spelling& s) { return words.has(s.words); });
     if (spelling != kSpellings.end()) {
         result.part = spelling->part;
         result.rank = spelling->rank;
-        if (has_word(words, "hip") && result.side != BodySide::none) result.part = BodyPart::upper_leg;
+        if (words.has("hip") && result.side != BodySide::none) result.part = BodyPart::upper_leg;
         if (is_of_a_limb(result.part) == (result.side == BodySide::none)) return std::nullopt;
         return result;
     }
-    const std::string_view only = only_word(words);
+    const std::string_view only = words.only_word();
     if (result.side == BodySide::none || (only != "arm" && only != "leg")) return std::nullopt;
     result.part = only == "arm" ? BodyPart::arm : BodyPart::leg;
     return result;

@@ -8,49 +8,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace bendy::converter {
 
-/// The parts of a human skeleton for which chains and limits are made. Left and right are the character's own; the
-/// right limbs follow the left ones in the same order.
-enum class HumanBone : std::uint8_t {
-    hips,
-    spine,
-    chest,
-    upper_chest,
-    neck,
-    head,
-    left_shoulder,  ///< the clavicle
-    left_upper_arm,
-    left_lower_arm,
-    left_hand,
-    left_thumb,  ///< its first bone, or the second: only used to tell the hand's sides apart
-    left_upper_leg,
-    left_lower_leg,
-    left_foot,
-    left_toes,
-    right_shoulder,
-    right_upper_arm,
-    right_lower_arm,
-    right_hand,
-    right_thumb,
-    right_upper_leg,
-    right_lower_leg,
-    right_foot,
-    right_toes,
-};
-inline constexpr std::size_t kHumanBones = 24;
-inline constexpr std::size_t kLimbBones = 9;  ///< per side
+/// The bones of a human skeleton: the roles before the chains.
+using HumanBone = Role;
+inline constexpr std::size_t kHumanBones = static_cast<std::size_t>(kFirstChainRole);
 
-constexpr bool is_right(HumanBone bone) {
-    return bone >= HumanBone::right_shoulder;
-}
-
-/// The right-hand counterpart of a left bone.
+/// The right-hand counterpart of a left bone. Left and right are the character's own.
 constexpr HumanBone mirrored(HumanBone left) {
-    return static_cast<HumanBone>(static_cast<std::size_t>(left) + kLimbBones);
+    const auto number = static_cast<std::size_t>(left);
+    if (left == HumanBone::left_eye) return HumanBone::right_eye;
+    return static_cast<HumanBone>(number + (left < HumanBone::left_thumb_metacarpal ? 4 : 15));
 }
+static_assert(mirrored(HumanBone::left_toes) == HumanBone::right_toes);
+static_assert(mirrored(HumanBone::left_hand) == HumanBone::right_hand);
+static_assert(mirrored(HumanBone::left_little_distal) == HumanBone::right_little_distal);
 
 /// Maps bones to joints; kNone: the bone is missing.
 class Humanoid {
@@ -66,9 +41,9 @@ private:
 };
 
 /// VRM's name of the bone, as `leftUpperArm`.
-std::string_view vrm_name(HumanBone bone);
+std::string vrm_name(HumanBone bone);
 
-/// The bone with that VRM name; nothing for the other finger bones, eyes, jaw and unknown names.
+/// The bone with that name in VRM 1.0; nothing for unknown names.
 std::optional<HumanBone> bone_of_vrm_name(std::string_view name);
 
 /// The part of a body that a joint's name refers to.
@@ -98,6 +73,28 @@ struct BoneName {
     BodyPart part = BodyPart::hips;
     BodySide side = BodySide::none;  ///< always left or right for the parts of a limb
     std::uint8_t rank = 0;           ///< 0 for an unambiguous name, 1 for a loose one, such as `palm` for a hand
+};
+
+/// The lower-case words and numbers of a joint's name, without a namespace: `mixamorig:LeftForeArm_010` has left, fore,
+/// arm and 010. A name of more than 200 bytes has none.
+class NameWords {
+public:
+    explicit NameWords(std::string_view name);
+
+    /// Whether the name has the word, or the words in this order with nothing between them.
+    [[nodiscard]] bool has(std::string_view word) const { return find(word) != std::string::npos; }
+    /// The word after this one; empty if there is none.
+    [[nodiscard]] std::string_view after(std::string_view word) const;
+    [[nodiscard]] BodySide side() const;
+    /// Whether a word marks a joint that is no part of the body, such as a control, an end or a twist segment.
+    [[nodiscard]] bool is_helper() const;
+    /// The only word besides sides, prefixes and numbers; empty if there are several.
+    [[nodiscard]] std::string_view only_word() const;
+
+private:
+    [[nodiscard]] std::size_t find(std::string_view word) const;
+
+    std::string words_;  ///< with a space before, between and after them
 };
 
 /// Parses a joint's name as written by Mixamo, VRM, Unreal, Rigify, Biped, Daz, H-Anim and most others:

@@ -131,9 +131,9 @@ std::vector<Chain> make_limb_chains(const Scene& scene, const RestFrames& rest, 
         };
         if (!humanoid.has(limb.start) || !humanoid.has(limb.effector)) {
             const HumanBone missing = humanoid.has(limb.start) ? limb.effector : limb.start;
-            leave_out("there is no " + std::string(vrm_name(missing)));
+            leave_out("there is no " + vrm_name(missing));
         } else if (!rest.is_below(humanoid[limb.effector], humanoid[limb.start])) {
-            leave_out(std::string(vrm_name(limb.effector)) + " is not below " + std::string(vrm_name(limb.start)));
+            leave_out(vrm_name(limb.effector) + " is not below " + vrm_name(limb.start));
         } else {
             chains.push_back(make_limb(scene, rest, limb, humanoid, stance, flags));
         }

@@ -6,6 +6,8 @@
 #include <bendy/format/constraint.h>
 
 #include <algorithm>
+#include <iterator>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -130,6 +132,31 @@ Chain resolve_chain(const RigChain& source, const Scene& scene, const JointIndex
     }
     chain.weights = resolve_weights(source, record, scene, budget);
     return chain;
+}
+
+void attach_roles(Scene& scene, const Rig& rig, const JointIndex& index) {
+    if (!rig.roles) return;
+    constexpr std::size_t kMost = 0x10000;  // joints of a chain
+    std::vector<RoleRecord> roles;
+    std::vector<bool> is_named(scene.joints.size());
+    std::vector<bool> is_said(kRoles);
+    for (const RigRole& role : *rig.roles) {
+        is_said[static_cast<std::size_t>(role.role)] = true;
+        if (role.joints.size() > kMost) fail(role.place, "a chain has " + std::to_string(kMost) + " joints at most");
+        for (std::size_t place = 0; place < role.joints.size(); ++place) {
+            const std::string& key = role.joints[place];
+            const std::string where = role.role < kFirstChainRole ? role.place : at(role.place, place);
+            const std::uint32_t joint = index.find_key(key);
+            if (joint == kNone) fail(where, "there is no joint " + quote(key) + index.suggest(name_of_key(key)));
+            if (is_named[joint]) fail(where, "joint " + quote(key) + " has another role here");
+            is_named[joint] = true;
+            roles.push_back({joint, static_cast<std::uint16_t>(role.role), static_cast<std::uint16_t>(place)});
+        }
+    }
+    std::copy_if(scene.roles.begin(), scene.roles.end(), std::back_inserter(roles),
+                 [&](const RoleRecord& record) { return !is_named[record.joint] && !is_said[record.role]; });
+    std::sort(roles.begin(), roles.end(), [](const RoleRecord& a, const RoleRecord& b) { return a.joint < b.joint; });
+    scene.roles = std::move(roles);
 }
 
 void attach_rig(Scene& scene, const Rig& rig, const JointIndex& index, Claims& claims, Report& report) {

@@ -24,6 +24,10 @@ struct Claims {
 /// weight that does not fit the skeleton; the scene is then unchanged.
 void attach_rig(Scene& scene, const Rig& rig, const JointIndex& index, Claims& claims, Report& report);
 
+/// Gives joints the roles that the rig says; other joints keep theirs, unless the rig gives them to somebody else.
+/// Fails at the JSON path of a joint that does not exist or is named twice; the scene is then unchanged.
+void attach_roles(Scene& scene, const Rig& rig, const JointIndex& index);
+
 /// Resolves the joints of a chain. Fails at its JSON path if a joint does not exist, the start is not above the
 /// effector, or a named weight is outside the chain.
 Chain resolve_chain(const RigChain& source, const Scene& scene, const JointIndex& index, WorkBudget& budget);

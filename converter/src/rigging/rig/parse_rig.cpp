@@ -6,6 +6,7 @@
 #include <bendy/format/constraint.h>
 #include <bendy/format/diagnostics.h>
 
+#include <algorithm>
 #include <bitset>
 #include <unordered_set>
 
@@ -175,6 +176,28 @@ RigChain parse_chain(const OrderedJson& value, const std::string& place, Notatio
 
 namespace {
 
+/// A joint, or null: none has the role; for a chain the list of its joints.
+RigRole parse_role(std::string_view word, const OrderedJson& value, const std::string& place) {
+    RigRole role;
+    role.place = place;
+    const auto& words = kValueNames<Role>;
+    const auto* const found = std::find(words.begin() + 1, words.end(), word);
+    if (found == words.end()) fail(place, "there is no role " + quote(word));
+    role.role = static_cast<Role>(found - words.begin());
+    const bool is_chain = role.role >= kFirstChainRole;
+    const auto add = [&](const OrderedJson& joint, const std::string& where) {
+        if (!joint.is_string()) fail(where, "expected the name of a joint, found " + shown(joint));
+        role.joints.push_back(joint.get<std::string>());
+    };
+    if (!is_chain) {
+        if (!value.is_null()) add(value, place);
+        return role;
+    }
+    need_list(value, place);
+    for (std::size_t i = 0; i < value.size(); ++i) add(value[i], at(place, i));
+    return role;
+}
+
 constexpr std::uint64_t kVersion = 1;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
 
@@ -204,6 +227,12 @@ Rig parse_rig(std::string_view text, Report& report) {
                 fail(at("chains", i) + ".name", "there is an earlier chain " + quote(chain.name));
             rig.chains.push_back(std::move(chain));
         }
+    }
+    if (const OrderedJson* roles = fields.find("roles"); roles != nullptr) {
+        Fields entries(*roles, "roles", Notation::rig_file);
+        rig.roles.emplace();
+        for (const auto& [word, value] : roles->items())
+            rig.roles->push_back(parse_role(word, value, entries.place_of(word)));
     }
     if (const OrderedJson* clips = fields.find("markers"); clips != nullptr) {
         Fields entries(*clips, "markers", Notation::rig_file);

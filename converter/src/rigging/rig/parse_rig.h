@@ -43,6 +43,14 @@ struct RigClip {
     std::vector<SourceMarker> markers;
 };
 
+/// The joints that a rig file gives a role, by their keys.
+struct RigRole {
+    Role role = Role::none;
+    std::string place;  ///< JSON path in the source
+    std::vector<std::string>
+        joints;  ///< keys without globs; one or none, or the joints of a chain from the body outwards
+};
+
 /// The constraints, chains and markers of one source, not yet matched to a skeleton. Sources of lower authority than
 /// the rig file use the same form, and attach_rig checks them the same way.
 struct Rig {
@@ -50,6 +58,7 @@ struct Rig {
     bool complete = false;
     std::vector<RigEntry> joints;
     std::vector<RigChain> chains;
+    std::optional<std::vector<RigRole>> roles;    ///< nothing: it has no list of roles
     std::optional<std::vector<RigClip>> clips;    ///< nothing: it has no list of markers
     std::optional<std::vector<RigCurve>> curves;  ///< nothing: it has no list of curves
 };

@@ -6,8 +6,10 @@
 #include "scene/failure.h"
 #include "scene/json_text.h"
 
+#include <algorithm>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -51,6 +53,8 @@ public:
         for (std::size_t i = 0; i < object_.chains.size(); ++i)
             chains += (chains.empty() ? "\n    " : ",\n    ") + write_chain(i);
         if (!chains.empty()) text += ",\n  \"chains\": [" + chains + "\n  ]";
+        const std::string roles = write_roles();
+        if (!roles.empty()) text += ",\n  \"roles\": {" + roles + "\n  }";
         const std::string markers = with_markers ? write_markers() : std::string();
         if (!markers.empty()) text += ",\n  \"markers\": {" + markers + "\n  }";
         const std::string curves = with_markers ? write_curves() : std::string();
@@ -79,6 +83,24 @@ private:
     [[nodiscard]] std::string name_of(std::uint32_t joint) const {
         const std::string_view name = object_.skeleton.joints[joint].name;
         return is_named(joint) && means_itself(name) ? std::string(name) : '#' + std::to_string(joint);
+    }
+
+    /// The joint of each role; for a chain, the joints from the body outwards.
+    [[nodiscard]] std::string write_roles() const {
+        std::vector<RoleRecord> records(object_.roles.begin(), object_.roles.end());
+        std::sort(records.begin(), records.end(), [](const RoleRecord& a, const RoleRecord& b) {
+            return std::tie(a.role, a.place) < std::tie(b.role, b.place);
+        });
+        std::string text;
+        for (std::size_t i = 0; i < records.size();) {
+            const std::uint16_t role = records[i].role;
+            std::string joints;
+            for (; i < records.size() && records[i].role == role; ++i)
+                joints += (joints.empty() ? "" : ", ") + json_text(name_of(records[i].joint));
+            if (role >= static_cast<std::uint16_t>(kFirstChainRole)) joints = '[' + joints + ']';
+            text += (text.empty() ? "\n    " : ",\n    ") + json_text(kValueNames<Role>[role]) + ": " + joints;
+        }
+        return text;
     }
 
     /// The entries of all clips that have markers.

@@ -105,7 +105,7 @@ constexpr std::array kRead{
     FourCC("TANG"), FourCC("TEXC"), FourCC("COLR"), FourCC("BONE"), FourCC("WGHT"), FourCC("USER"), FourCC("VALS"),
     FourCC("INDX"), FourCC("CYCL"), FourCC("CINF"), FourCC("TRAK"), FourCC("TIME"), FourCC("KEYV"), FourCC("PACK"),
     FourCC("LODD"), FourCC("BNDS"), FourCC("JNTS"), FourCC("JNAM"), FourCC("MARK"), FourCC("MORE"), FourCC("FRMS"),
-    FourCC("FNAM"), FourCC("GRID"), FourCC("NLST"), FourCC("PLAY"), FourCC("CURV")};
+    FourCC("FNAM"), FourCC("GRID"), FourCC("NLST"), FourCC("PLAY"), FourCC("CURV"), FourCC("ROLE")};
 
 /// Number of bytes read from a leaf that holds a single record; 0 for other leaves.
 std::uint64_t record_size(FourCC id) {
@@ -189,6 +189,7 @@ void import_joints(const SkeletonView& skeleton, Scene& scene) {
 }
 
 void import_chains(const ObjectView& object, Scene& scene) {
+    scene.roles.assign(object.roles.begin(), object.roles.end());
     for (const ChainView& view : object.chains) {
         Chain& chain = scene.chains.emplace_back();
         chain.name = view.name;

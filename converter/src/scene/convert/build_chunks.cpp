@@ -399,6 +399,7 @@ std::vector<std::byte> build(const Scene& scene, Scene* spent, std::string_view 
     put_text(out, FourCC("EXTR"), scene.extras);
     put_text(out, FourCC("MORE"), scene.more);
     put_joints(out, scene, sort_by_joint(scene, polygons));
+    if (!scene.roles.empty()) out.leaf(FourCC("ROLE"), std::as_bytes(std::span(scene.roles)));
     for (const Chain& chain : scene.chains) put_chain(out, chain);
     const CompactMesh exact;
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {

@@ -14,6 +14,7 @@
 #include "scene/source/source_file.h"
 #ifdef BENDY_AUTO_RIG
 #include "rigging/humanoid/auto_rig.h"
+#include "rigging/humanoid/find_roles.h"
 #endif
 
 #include <bendy/converter/build_chunks.h>
@@ -36,6 +37,7 @@ void auto_rig(Scene& /*scene*/, const std::vector<bool>& /*claimed*/, Report& /*
     fail({}, "--auto-rig needs a program that was built with BENDY_AUTO_RIG=ON");
 }
 void add_vrm_chains(Scene& /*scene*/, Report& /*report*/) {}
+void find_roles(Scene& /*scene*/) {}
 #endif
 
 /// Attaches the rig file in the scene's extras. Returns true if it is complete, so that other sources are ignored.
@@ -44,6 +46,7 @@ bool attach_exported_rig(Scene& scene, const JointIndex& index, Claims& claims, 
     if (!rig) return false;
     try {
         attach_rig(scene, *rig, index, claims, report);
+        attach_roles(scene, *rig, index);
         if (!markers_are_told) attach_markers(scene, *rig, report);
         attach_curves(scene, *rig, index, report);
         return rig->complete;
@@ -134,6 +137,8 @@ Result<Scene, ImportError> import_source(std::optional<Buffer> source, const std
     } else {
         change_rig(*scene, rig, options.auto_rig, report);
     }
+    if (!rig || !rig->complete || !rig->roles) find_roles(*scene);
+    if (rig) attach_roles(*scene, *rig, JointIndex(*scene));
     return scene;
 }
 

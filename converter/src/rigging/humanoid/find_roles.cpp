@@ -1,0 +1,237 @@
+#include "find_roles.h"
+
+#include "body_details.h"
+#include "clip_rotations.h"
+#include "find_body.h"
+#include "humanoid.h"
+#include "mirrored_chains.h"
+#include "scene/rest_frames.h"
+
+#include <bendy/converter/report.h>
+#include <bendy/format/records.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace bendy::converter {
+namespace {
+
+using Joints = std::vector<std::uint32_t>;
+
+/// Collects roles: a joint has one, the first that it is given.
+class RoleList {
+public:
+    explicit RoleList(const Scene& scene) : is_taken_(scene.joints.size()) {}
+
+    void add(Role role, std::uint32_t joint, std::uint16_t place = 0) {
+        if (joint == kNone || is_taken_[joint]) return;
+        is_taken_[joint] = true;
+        list_.push_back({joint, static_cast<std::uint16_t>(role), place});
+    }
+    void add_chain(Role role, const Joints& joints) {
+        for (std::size_t place = 0; place < std::min<std::size_t>(joints.size(), 0xffff); ++place)
+            add(role, joints[place], static_cast<std::uint16_t>(place));
+    }
+    void add(const Humanoid& bones) {
+        for (auto role = static_cast<unsigned>(Role::hips); role < static_cast<unsigned>(kFirstChainRole); ++role)
+            add(static_cast<Role>(role), bones[static_cast<Role>(role)]);
+    }
+
+    [[nodiscard]] std::vector<RoleRecord> take() {
+        std::sort(list_.begin(), list_.end(),
+                  [](const RoleRecord& a, const RoleRecord& b) { return a.joint < b.joint; });
+        return std::move(list_);
+    }
+
+private:
+    std::vector<bool> is_taken_;
+    std::vector<RoleRecord> list_;
+};
+
+/// The joints from one below `top` down to `joint`, without `joint`.
+Joints joints_between(const Scene& scene, std::uint32_t top, std::uint32_t joint) {
+    Joints path;
+    for (std::uint32_t at = scene.joints[joint].parent; at != kNone && at != top; at = scene.joints[at].parent)
+        path.push_back(at);
+    std::reverse(path.begin(), path.end());
+    return path;
+}
+
+/// A human from the limbs and the head that were found; checks that they belong to one body.
+class HumanRoles {
+public:
+    HumanRoles(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found)
+        : scene_(scene), rest_(rest), found_(found), bones_(found.bones) {}
+
+    /// Nothing if this is not a human.
+    std::optional<Humanoid> find() {
+        if (!has_limbs() || !bones_.has(Role::head)) return std::nullopt;
+        const std::optional<Posture> posture = measure_posture(rest_, found_);
+        if (!posture || !posture->is_upright || !posture->has_feet_forward) return std::nullopt;
+        for (const Limb limb : {Limb::left_arm, Limb::right_arm, Limb::left_leg, Limb::right_leg}) add_end(limb);
+        if (!find_hips() || !find_trunk()) return std::nullopt;
+        add_details(scene_, rest_, bones_);
+        return bones_;
+    }
+
+private:
+    [[nodiscard]] bool is_named(std::uint32_t joint, BodyPart part) const {
+        const std::optional<BoneName> name = read_bone_name(scene_.joints[joint].name);
+        return name && name->part == part;
+    }
+    [[nodiscard]] bool is_wing(Role arm) const { return NameWords(scene_.joints[bones_[arm]].name).has("wing"); }
+
+    [[nodiscard]] bool has_limbs() const {
+        for (const Limb limb : {Limb::left_arm, Limb::right_arm, Limb::left_leg, Limb::right_leg}) {
+            const LimbBones of_limb = bones_of(limb);
+            if (!bones_.has(of_limb.upper) || !bones_.has(of_limb.lower)) return false;
+            if (is_wing(of_limb.upper) || is_wing(of_limb.lower)) return false;
+            if (!rest_.is_below(bones_[of_limb.lower], bones_[of_limb.upper])) return false;
+            if (!rest_.direction(bones_[of_limb.upper], bones_[of_limb.lower])) return false;
+        }
+        return true;
+    }
+
+    /// A foot that its own rig moves, at the end of the leg; of a hand that branches from the forearm, the middle.
+    void add_end(Limb limb) {
+        const LimbBones of_limb = bones_of(limb);
+        const std::uint32_t loose = found_.loose_ends[static_cast<std::size_t>(limb)];
+        const std::optional<glm::dvec3> end = end_of(found_, rest_, limb);
+        const bool is_arm = limb == Limb::left_arm || limb == Limb::right_arm;
+        if (is_arm && found_.has_split_hands)
+            bones_[of_limb.end] = find_split_hand(scene_, rest_, bones_[of_limb.lower]);
+        if (!bones_.has(of_limb.end) && loose != kNone && end && *end == rest_.position(loose))
+            bones_[of_limb.end] = loose;
+    }
+
+    /// The joint named as the hips, if it carries the legs and the head; else the lowest joint that does, or the one
+    /// named as the hips if it carries the head. False if none of them is near the legs, as a root on the ground is
+    /// not.
+    bool find_hips() {
+        const Joints body{bones_[Role::left_upper_leg], bones_[Role::right_upper_leg], bones_[Role::head]};
+        const glm::dvec3 between = 0.5 * (rest_.position(body[0]) + rest_.position(body[1]));
+        const double thigh = glm::distance(rest_.position(body[0]), rest_.position(bones_[Role::left_lower_leg]));
+        const auto is_near = [&](std::uint32_t joint) {
+            return joint != kNone && rest_.is_below(body[2], joint) &&
+                   glm::distance(rest_.position(joint), between) < 1.5 * thigh;
+        };
+        const auto carries_all = [&](std::uint32_t joint) {
+            return std::all_of(body.begin(), body.end(),
+                               [&](std::uint32_t each) { return rest_.is_below(each, joint); });
+        };
+        const std::uint32_t named = bones_[Role::hips];
+        if (is_near(named) && carries_all(named)) return true;
+        const std::uint32_t lowest = common_ancestor(scene_, rest_, body);
+        bones_[Role::hips] = is_near(lowest) ? lowest : named;
+        return is_near(bones_[Role::hips]);
+    }
+
+    /// Names the joints from the hips to the head. False if the arms do not leave from there.
+    bool find_trunk() {
+        Joints path = joints_between(scene_, bones_[Role::hips], bones_[Role::head]);
+        const std::uint32_t arms =
+            common_ancestor(scene_, rest_, {bones_[Role::left_upper_arm], bones_[Role::right_upper_arm]});
+        const auto chest = std::find(path.begin(), path.end(), arms);
+        if (arms != bones_[Role::hips] && chest == path.end()) return false;
+        auto neck = std::find(path.begin(), path.end(), bones_[Role::neck]);
+        if (neck == path.end()) neck = chest == path.end() ? path.begin() : chest + 1;
+        bones_[Role::neck] = neck == path.end() ? kNone : *neck;
+        path.erase(neck, path.end());
+        // Some rigs have a joint `Hips` above the legs' joint, which carries the spine alone.
+        std::erase_if(path, [&](std::uint32_t joint) { return is_named(joint, BodyPart::hips); });
+        bones_[Role::spine] = path.empty() ? kNone : path.front();
+        bones_[Role::chest] = path.size() < 2 ? kNone : path[path.size() / 2];
+        bones_[Role::upper_chest] = path.size() < 3 ? kNone : path.back();
+        return true;
+    }
+
+    const Scene& scene_;
+    const RestFrames& rest_;
+    const NamedHumanoid& found_;
+    Humanoid bones_;
+};
+
+constexpr std::array<std::array<Role, 2>, 2> kLegRoles{std::array{Role::left_front_leg, Role::right_front_leg},
+                                                       std::array{Role::left_hind_leg, Role::right_hind_leg}};
+
+void add_animal(const Scene& scene, const RestFrames& rest, const Quadruped& animal, RoleList& roles) {
+    const std::uint32_t hips = common_ancestor(
+        scene, rest, {animal.legs[Quadruped::left_hind].front(), animal.legs[Quadruped::right_hind].front()});
+    for (std::size_t leg = 0; leg < animal.legs.size(); ++leg)
+        roles.add_chain(kLegRoles[leg / 2][leg % 2], animal.legs[leg]);
+    Joints neck = animal.neck;
+    if (!neck.empty()) roles.add(Role::head, neck.back());
+    if (!neck.empty()) neck.pop_back();
+    roles.add(Role::hips, hips);
+    roles.add_chain(Role::spine_chain, animal.spine);
+    roles.add_chain(Role::neck_chain, neck);
+    roles.add_chain(Role::tail, animal.tail);
+}
+
+/// A bird: two legs and a head by name, and joints named as wings.
+void add_bird(const Scene& scene, const RestFrames& rest, const NamedHumanoid& named, RoleList& roles) {
+    const Humanoid& bones = named.bones;
+    const Joints left = find_wing(scene, BodySide::left);
+    const Joints right = find_wing(scene, BodySide::right);
+    const bool has_legs = bones.has(Role::left_foot) && bones.has(Role::right_foot);
+    if (left.empty() || left.size() != right.size() || !has_legs || !bones.has(Role::head)) return;
+    const std::uint32_t hips =
+        common_ancestor(scene, rest, {bones[Role::left_upper_leg], bones[Role::right_upper_leg], bones[Role::head]});
+    if (hips == kNone) return;
+    const Joints path = joints_between(scene, hips, bones[Role::head]);
+    const auto neck = std::find(path.begin(), path.end(), bones[Role::neck]);
+    const auto leg = [&](std::initializer_list<Role> parts) {
+        Joints joints;
+        for (const Role part : parts) {
+            if (bones.has(part)) joints.push_back(bones[part]);
+        }
+        return joints;
+    };
+    roles.add(Role::hips, hips);
+    roles.add(Role::head, bones[Role::head]);
+    roles.add_chain(Role::spine_chain, Joints(path.begin(), neck));
+    roles.add_chain(Role::neck_chain, Joints(neck, path.end()));
+    roles.add_chain(Role::left_hind_leg,
+                    leg({Role::left_upper_leg, Role::left_lower_leg, Role::left_foot, Role::left_toes}));
+    roles.add_chain(Role::right_hind_leg,
+                    leg({Role::right_upper_leg, Role::right_lower_leg, Role::right_foot, Role::right_toes}));
+    roles.add_chain(Role::left_wing, left);
+    roles.add_chain(Role::right_wing, right);
+}
+
+void add_human(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found, RoleList& roles) {
+    const std::optional<Humanoid> human = HumanRoles(scene, rest, found).find();
+    if (!human) return add_bird(scene, rest, found, roles);
+    roles.add(*human);
+    roles.add_chain(Role::tail, find_tail(scene, {(*human)[Role::hips], (*human)[Role::spine]}));
+    roles.add_chain(Role::left_wing, find_wing(scene, BodySide::left));
+    roles.add_chain(Role::right_wing, find_wing(scene, BodySide::right));
+}
+
+}  // namespace
+
+void find_roles(Scene& scene) {
+    if (!scene.roles.empty() || scene.joints.empty()) return;
+    RoleList roles(scene);
+    Report unheard;  // discarded: reported when the extension's chains are made
+    if (const std::optional<VrmHumanoid> vrm = read_vrm_humanoid(scene, unheard)) {
+        roles.add(vrm->bones);
+    } else {
+        const RestFrames rest(scene);
+        const FoundBody body = find_body(scene, rest, ClipRotations(scene));
+        if (body.animal) {
+            add_animal(scene, rest, *body.animal, roles);
+        } else {
+            add_human(scene, rest, body.human, roles);
+        }
+    }
+    scene.roles = roles.take();
+}
+
+}  // namespace bendy::converter

@@ -1,0 +1,440 @@
+#include "rigging/humanoid/find_roles.h"
+
+#include "humanoid_gltf.h"
+
+#include <bendy/converter/build_chunks.h>
+#include <bendy/format/document.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace bendy::converter::find_roles_test {
+namespace {
+
+using namespace test;
+
+/// Role, with its place if it is a chain, to the joint's name.
+using Roles = std::map<std::string, std::string>;
+
+Roles roles_of(const Gltf& gltf) {
+    Scene scene = *gltf.import();
+    find_roles(scene);
+    Report report;
+    EXPECT_TRUE(validate(build_chunks(scene, "test", report)).empty());
+    Roles roles;
+    for (const RoleRecord& record : scene.roles) {
+        std::string word(kValueNames<Role>.at(record.role));
+        if (record.role >= static_cast<std::uint16_t>(kFirstChainRole)) word += std::to_string(record.place);
+        roles[word] = scene.joints[record.joint].name;
+    }
+    return roles;
+}
+Roles roles_of(const HumanoidGltf& character) {
+    return roles_of(character.build());
+}
+
+/// `leftUpperArm` of `left_upper_arm`.
+std::string camel(std::string_view word) {
+    std::string name;
+    bool starts = false;
+    for (const char c : word) {
+        if (c != '_') name += starts ? static_cast<char>(c - 'a' + 'A') : c;
+        starts = c == '_';
+    }
+    return name;
+}
+
+/// The roles of a character whose joints have VRM's names, or `names`.
+Roles expected(const HumanoidGltf& character) {
+    Roles roles;
+    for (const std::string_view word : kValueNames<Role>) {
+        for (const HumanoidGltf::Bone& bone : character.bones) {
+            if (bone.name != camel(word)) continue;
+            const auto renamed = character.names.find(bone.name);
+            roles[std::string(word)] = renamed == character.names.end() ? bone.name : renamed->second;
+        }
+    }
+    return roles;
+}
+
+/// With three joints for each finger, eyes and a jaw.
+HumanoidGltf make_whole() {
+    HumanoidGltf human;
+    human.add("upperChest", "chest", {0, 1.4, 0});
+    human["neck"].parent = "upperChest";
+    human.add("jaw", "head", {0, 1.62, 0.05});
+    for (const double side : {1.0, -1.0}) {
+        const std::string s = side > 0 ? "left" : "right";
+        human[s + "Shoulder"].parent = "upperChest";
+        human.add(s + "Eye", "head", {side * 0.03, 1.7, 0.08});
+        for (int finger = 0; finger < 5; ++finger) {
+            const bool is_thumb = finger == 0;
+            constexpr std::array kNames{"Thumb", "Index", "Middle", "Ring", "Little"};
+            const std::array joints{is_thumb ? "Metacarpal" : "Proximal", is_thumb ? "Proximal" : "Intermediate",
+                                    "Distal"};
+            std::string parent = s + "Hand";
+            for (std::size_t k = 0; k < joints.size(); ++k) {
+                const std::string name = s + kNames.at(static_cast<std::size_t>(finger)) + joints.at(k);
+                human.add(name, parent, {side * (0.85 + 0.03 * static_cast<double>(k)), 1.45, 0.04 - 0.02 * finger});
+                parent = name;
+            }
+        }
+    }
+    return human;
+}
+
+/// How a tool names joints: `%` is the side, and the words of a finger's joints are those of `finger` and `numbers`.
+struct Convention {
+    const char* tool;
+    std::array<const char*, 2> sides;
+    std::map<std::string, std::string> middle;
+    std::map<std::string, std::string> limbs;
+    std::string finger;  ///< `@` is the finger, `#` its joint
+    std::array<const char*, 5> fingers;
+    std::array<const char*, 3> numbers;
+};
+
+std::string replaced(std::string text, char mark, const std::string& by) {
+    if (const std::size_t at = text.find(mark); at != std::string::npos) text.replace(at, 1, by);
+    return text;
+}
+
+void rename(HumanoidGltf& human, const Convention& convention) {
+    for (const auto& [bone, name] : convention.middle) human.names[bone] = name;
+    for (const std::size_t side : {0u, 1u}) {
+        const std::string s = side == 0 ? "left" : "right";
+        for (const auto& [bone, name] : convention.limbs)
+            human.names[s + bone] = replaced(name, '%', convention.sides[side]);
+        constexpr std::array kFingers{"Thumb", "Index", "Middle", "Ring", "Little"};
+        for (std::size_t f = 0; f < kFingers.size(); ++f) {
+            const std::array joints{f == 0 ? "Metacarpal" : "Proximal", f == 0 ? "Proximal" : "Intermediate", "Distal"};
+            for (std::size_t k = 0; k < joints.size(); ++k) {
+                std::string name = replaced(convention.finger, '%', convention.sides[side]);
+                name = replaced(replaced(name, '@', convention.fingers[f]), '#', convention.numbers[k]);
+                human.names[s + kFingers.at(f) + joints.at(k)] = name;
+            }
+        }
+    }
+}
+
+const std::vector<Convention> kConventions{{"Mixamo",
+                                            {"Left", "Right"},
+                                            {{"hips", "mixamorig:Hips"},
+                                             {"spine", "mixamorig:Spine"},
+                                             {"chest", "mixamorig:Spine1"},
+                                             {"upperChest", "mixamorig:Spine2"},
+                                             {"neck", "mixamorig:Neck"},
+                                             {"head", "mixamorig:Head"}},
+                                            {{"Shoulder", "mixamorig:%Shoulder"},
+                                             {"UpperArm", "mixamorig:%Arm"},
+                                             {"LowerArm", "mixamorig:%ForeArm"},
+                                             {"Hand", "mixamorig:%Hand"},
+                                             {"UpperLeg", "mixamorig:%UpLeg"},
+                                             {"LowerLeg", "mixamorig:%Leg"},
+                                             {"Foot", "mixamorig:%Foot"},
+                                             {"Toes", "mixamorig:%ToeBase"},
+                                             {"Eye", "mixamorig:%Eye"}},
+                                            "mixamorig:%Hand@#",
+                                            {"Thumb", "Index", "Middle", "Ring", "Pinky"},
+                                            {"1", "2", "3"}},
+                                           {"Unreal",
+                                            {"l", "r"},
+                                            {{"hips", "pelvis"},
+                                             {"spine", "spine_01"},
+                                             {"chest", "spine_02"},
+                                             {"upperChest", "spine_03"},
+                                             {"neck", "neck_01"},
+                                             {"head", "head"}},
+                                            {{"Shoulder", "clavicle_%"},
+                                             {"UpperArm", "upperarm_%"},
+                                             {"LowerArm", "lowerarm_%"},
+                                             {"Hand", "hand_%"},
+                                             {"UpperLeg", "thigh_%"},
+                                             {"LowerLeg", "calf_%"},
+                                             {"Foot", "foot_%"},
+                                             {"Toes", "ball_%"},
+                                             {"Eye", "eye_%"}},
+                                            "@_#_%",
+                                            {"thumb", "index", "middle", "ring", "pinky"},
+                                            {"01", "02", "03"}},
+                                           {"Rigify",
+                                            {"L", "R"},
+                                            {{"hips", "DEF-spine"},
+                                             {"spine", "DEF-spine.001"},
+                                             {"chest", "DEF-spine.002"},
+                                             {"upperChest", "DEF-spine.003"},
+                                             {"neck", "DEF-spine.004"},
+                                             {"head", "DEF-spine.006"}},
+                                            {{"Shoulder", "DEF-shoulder.%"},
+                                             {"UpperArm", "DEF-upper_arm.%"},
+                                             {"LowerArm", "DEF-forearm.%"},
+                                             {"Hand", "DEF-hand.%"},
+                                             {"UpperLeg", "DEF-thigh.%"},
+                                             {"LowerLeg", "DEF-shin.%"},
+                                             {"Foot", "DEF-foot.%"},
+                                             {"Toes", "DEF-toe.%"},
+                                             {"Eye", "DEF-eye.%"}},
+                                            "DEF-@.#.%",
+                                            {"thumb", "f_index", "f_middle", "f_ring", "f_pinky"},
+                                            {"01", "02", "03"}},
+                                           {"Biped",
+                                            {"L", "R"},
+                                            {{"hips", "Bip01 Pelvis"},
+                                             {"spine", "Bip01 Spine"},
+                                             {"chest", "Bip01 Spine1"},
+                                             {"upperChest", "Bip01 Spine2"},
+                                             {"neck", "Bip01 Neck"},
+                                             {"head", "Bip01 Head"}},
+                                            {{"Shoulder", "Bip01 % Clavicle"},
+                                             {"UpperArm", "Bip01 % UpperArm"},
+                                             {"LowerArm", "Bip01 % Forearm"},
+                                             {"Hand", "Bip01 % Hand"},
+                                             {"UpperLeg", "Bip01 % Thigh"},
+                                             {"LowerLeg", "Bip01 % Calf"},
+                                             {"Foot", "Bip01 % Foot"},
+                                             {"Toes", "Bip01 % Toe0"},
+                                             {"Eye", "Bip01 % Eye"}},
+                                            "Bip01 % Finger@#",
+                                            {"0", "1", "2", "3", "4"},
+                                            {"", "1", "2"}},
+                                           {"CMU",
+                                            {"Left", "Right"},
+                                            {{"hips", "Hips"},
+                                             {"spine", "LowerBack"},
+                                             {"chest", "Spine"},
+                                             {"upperChest", "Spine1"},
+                                             {"neck", "Neck1"},
+                                             {"head", "Head"}},
+                                            {{"Shoulder", "%Shoulder"},
+                                             {"UpperArm", "%Arm"},
+                                             {"LowerArm", "%ForeArm"},
+                                             {"Hand", "%Hand"},
+                                             {"UpperLeg", "%UpLeg"},
+                                             {"LowerLeg", "%Leg"},
+                                             {"Foot", "%Foot"},
+                                             {"Toes", "%ToeBase"},
+                                             {"Eye", "%Eye"}},
+                                            "%Hand@#",
+                                            {"Thumb", "Index", "Middle", "Ring", "Pinky"},
+                                            {"1", "2", "3"}},
+                                           {"Quaternius",
+                                            {"L", "R"},
+                                            {{"hips", "Hips"},
+                                             {"spine", "Abdomen"},
+                                             {"chest", "Torso"},
+                                             {"upperChest", "Chest"},
+                                             {"neck", "Neck"},
+                                             {"head", "Head"}},
+                                            {{"Shoulder", "Shoulder.%"},
+                                             {"UpperArm", "UpperArm.%"},
+                                             {"LowerArm", "LowerArm.%"},
+                                             {"Hand", "Palm.%"},
+                                             {"UpperLeg", "UpperLeg.%"},
+                                             {"LowerLeg", "LowerLeg.%"},
+                                             {"Foot", "Foot.%"},
+                                             {"Toes", "Toes.%"},
+                                             {"Eye", "Eye.%"}},
+                                            "@#.%",
+                                            {"Thumb", "Index", "Middle", "Ring", "Pinky"},
+                                            {"1", "2", "3"}},
+                                           {"Daz",
+                                            {"l", "r"},
+                                            {{"hips", "hip"},
+                                             {"spine", "abdomenLower"},
+                                             {"chest", "abdomenUpper"},
+                                             {"upperChest", "chestLower"},
+                                             {"neck", "neckLower"},
+                                             {"head", "head"}},
+                                            {{"Shoulder", "%Collar"},
+                                             {"UpperArm", "%ShldrBend"},
+                                             {"LowerArm", "%ForearmBend"},
+                                             {"Hand", "%Hand"},
+                                             {"UpperLeg", "%ThighBend"},
+                                             {"LowerLeg", "%Shin"},
+                                             {"Foot", "%Foot"},
+                                             {"Toes", "%Toe"},
+                                             {"Eye", "%Eye"}},
+                                            "%@#",
+                                            {"Thumb", "Index", "Mid", "Ring", "Pinky"},
+                                            {"1", "2", "3"}}};
+
+TEST(FindRoles, ByTheNamesThatToolsGive) {
+    for (const Convention& convention : kConventions) {
+        HumanoidGltf human = make_whole();
+        rename(human, convention);
+        EXPECT_EQ(roles_of(human), expected(human)) << convention.tool;
+    }
+}
+
+TEST(FindRoles, InAPoseOfAnyKindAndFacingAnyWay) {
+    HumanoidGltf human = make_whole();
+    rename(human, kConventions[1]);
+    for (const double side : {1.0, -1.0}) {  // arms down
+        const std::string s = side > 0 ? "left" : "right";
+        for (HumanoidGltf::Bone& bone : human.bones) {
+            const double out = side * bone.position.x - 0.2;
+            if (out > 0 && bone.position.y > 1.3)
+                bone.position = {side * (0.2 + 0.2 * out), bone.position.y - out, bone.position.z};
+        }
+    }
+    for (const double turn : {0.0, 1.0, 3.0}) {
+        HumanoidGltf turned = human;
+        const glm::dquat about_y = glm::angleAxis(turn, glm::dvec3(0, 1, 0));
+        turned.move([&](glm::dvec3 p) { return about_y * p; });
+        EXPECT_EQ(roles_of(turned), expected(turned)) << turn;
+    }
+}
+
+TEST(FindRoles, VrmSaysThem) {
+    HumanoidGltf human = make_whole();
+    EXPECT_EQ(roles_of(human.build_vrm()), expected(human));
+    HumanoidGltf odd = make_whole();  // what VRM says is not doubted
+    odd.names["hips"] = "left hand";
+    EXPECT_EQ(roles_of(odd.build_vrm()), expected(odd));
+}
+
+TEST(FindRoles, OldVrmNamesTheThumbAsTheFingers) {
+    HumanoidGltf human;
+    human.add("leftThumbProximal", "leftHand", {0.8, 1.45, 0});
+    human.add("leftThumbIntermediate", "leftThumbProximal", {0.83, 1.45, 0});
+    human.add("leftThumbDistal", "leftThumbIntermediate", {0.86, 1.45, 0});
+    human.move([](glm::dvec3 p) { return glm::dvec3(-p.x, p.y, -p.z); });
+    const Roles roles = roles_of(human.build_vrm(true));
+    EXPECT_EQ(roles.at("left_thumb_metacarpal"), "leftThumbProximal");
+    EXPECT_EQ(roles.at("left_thumb_proximal"), "leftThumbIntermediate");
+    EXPECT_EQ(roles.at("left_thumb_distal"), "leftThumbDistal");
+    EXPECT_EQ(roles.at("right_lower_leg"), "rightLowerLeg");
+}
+
+TEST(FindRoles, ByShapeWhereNamesSayNothing) {
+    HumanoidGltf human;
+    std::size_t number = 0;
+    for (const HumanoidGltf::Bone& bone : human.bones) human.names[bone.name] = "Bone" + std::to_string(number++);
+    EXPECT_EQ(roles_of(human), expected(human));
+}
+
+TEST(FindRoles, AFootOfItsOwnRigIsTheFoot) {
+    HumanoidGltf human;
+    for (const char* foot : {"leftFoot", "rightFoot"}) human[foot].parent = "hips";
+    rename(human, kConventions[5]);
+    EXPECT_EQ(roles_of(human).at("left_foot"), "Foot.L");
+}
+
+TEST(FindRoles, AHandThatBranchesIsTheMiddle) {
+    HumanoidGltf robot;
+    for (const double side : {1.0, -1.0}) {
+        const std::string s = side > 0 ? "left" : "right";
+        robot.add(s + "Index", s + "LowerArm", {side * 0.75, 1.45, 0.04});
+        robot.add(s + "Index2", s + "Index", {side * 0.8, 1.45, 0.04});
+        robot.add(s + "Thumb", s + "LowerArm", {side * 0.75, 1.45, 0.08});
+        robot.add(s + "Palm2", s + "LowerArm", {side * 0.75, 1.45, 0});
+        robot.add(s + "Middle", s + "Palm2", {side * 0.8, 1.45, 0});
+    }
+    std::erase_if(robot.bones, [](const HumanoidGltf::Bone& bone) { return bone.name.ends_with("Hand"); });
+    const Roles roles = roles_of(robot);
+    EXPECT_EQ(roles.at("left_hand"), "leftPalm2");
+    EXPECT_EQ(roles.at("right_hand"), "rightPalm2");
+    EXPECT_EQ(roles.at("left_index_proximal"), "leftIndex");
+    EXPECT_EQ(roles.at("left_index_intermediate"), "leftIndex2");
+    EXPECT_EQ(roles.at("left_middle_proximal"), "leftMiddle");
+    // Without a palm there is no hand.
+    for (const char* middle : {"leftMiddle", "rightMiddle"})
+        robot[middle].parent = std::string(middle).replace(std::string(middle).size() - 6, 6, "LowerArm");
+    std::erase_if(robot.bones, [](const HumanoidGltf::Bone& bone) { return bone.name.ends_with("Palm2"); });
+    EXPECT_EQ(roles_of(robot).count("left_hand"), 0u);
+}
+
+TEST(FindRoles, HipsCarryTheLegsAndTheSpine) {
+    HumanoidGltf human;
+    human.bones.insert(human.bones.begin(), {"body", "", {0, 1, 0}});
+    human["hips"].parent = "body";
+    for (const char* leg : {"leftUpperLeg", "rightUpperLeg"}) human[leg].parent = "body";
+    const Roles roles = roles_of(human);
+    EXPECT_EQ(roles.at("hips"), "body");
+    EXPECT_EQ(roles.at("spine"), "spine");
+    // A root on the ground is not the hips.
+    human["body"].position = {0, 0, 0};
+    EXPECT_EQ(roles_of(human).at("hips"), "hips");
+}
+
+TEST(FindRoles, TailsAndWingsOfAHuman) {
+    HumanoidGltf demon;
+    demon.add("tail1", "hips", {0, 0.95, -0.1});
+    demon.add("tail2", "tail1", {0, 0.85, -0.2});
+    demon.add("ponyTail", "head", {0, 1.7, -0.1});
+    demon.add("wing_L", "chest", {0.1, 1.4, -0.1});
+    demon.add("wing_R", "chest", {-0.1, 1.4, -0.1});
+    const Roles roles = roles_of(demon);
+    EXPECT_EQ(roles.at("tail0"), "tail1");
+    EXPECT_EQ(roles.at("tail1"), "tail2");
+    EXPECT_EQ(roles.at("left_wing0"), "wing_L");
+    EXPECT_EQ(roles.at("right_wing0"), "wing_R");
+    EXPECT_EQ(roles.count("tail2"), 0u);
+}
+
+TEST(FindRoles, AnAnimalHasChains) {
+    const Roles roles = roles_of(make_quadruped());
+    EXPECT_EQ(roles.at("hips"), "hips");
+    EXPECT_EQ(roles.at("head"), "head");
+    EXPECT_EQ(roles.at("spine_chain0"), "spine");
+    EXPECT_EQ(roles.at("neck_chain0"), "neck");
+    EXPECT_EQ(roles.at("left_front_leg0"), "leftUpperArm");
+    EXPECT_EQ(roles.at("right_hind_leg1"), "rightLowerLeg");
+    EXPECT_EQ(roles.count("left_upper_arm"), 0u);
+}
+
+TEST(FindRoles, ABirdHasWings) {
+    HumanoidGltf bird;
+    for (const char* side : {"left", "right"}) {
+        const std::string s = side;
+        const std::string mark = s == "left" ? "_L" : "_R";
+        bird.names[s + "UpperArm"] = "wing" + mark;
+        bird.names[s + "LowerArm"] = "wing.001" + mark;
+        bird.names[s + "Hand"] = "wing.002" + mark;
+    }
+    const Roles roles = roles_of(bird);
+    EXPECT_EQ(roles.at("left_wing0"), "wing_L");
+    EXPECT_EQ(roles.at("right_wing2"), "wing.002_R");
+    EXPECT_EQ(roles.at("left_hind_leg1"), "leftLowerLeg");
+    EXPECT_EQ(roles.at("head"), "head");
+    EXPECT_EQ(roles.count("left_upper_leg"), 0u);
+}
+
+TEST(FindRoles, AWrongRoleIsWorseThanNone) {
+    const auto without = [](std::initializer_list<const char*> names) {
+        HumanoidGltf human;
+        std::erase_if(human.bones, [&](const HumanoidGltf::Bone& bone) {
+            return std::find(names.begin(), names.end(), bone.name) != names.end();
+        });
+        for (HumanoidGltf::Bone& bone : human.bones) {
+            if (std::find(names.begin(), names.end(), bone.parent) != names.end()) bone.parent = "hips";
+        }
+        return human;
+    };
+    EXPECT_EQ(roles_of(without({"leftUpperLeg", "leftLowerLeg", "leftFoot", "leftToes"})), Roles());
+    EXPECT_EQ(roles_of(without({"rightUpperArm", "rightLowerArm", "rightHand"})), Roles());
+    EXPECT_EQ(roles_of(without({"head", "neck"})), Roles());
+    HumanoidGltf swapped;  // the toes say that left is right
+    for (const char* toes : {"leftToes", "rightToes"}) swapped[toes].position.z = -0.15;
+    EXPECT_EQ(roles_of(swapped), Roles());
+    HumanoidGltf headless;
+    headless["head"].parent = "";
+    EXPECT_EQ(roles_of(headless), Roles());
+    HumanoidGltf prop;
+    prop.bones.resize(1);
+    EXPECT_EQ(roles_of(prop), Roles());
+}
+
+TEST(FindRoles, WhatTheSceneHasStays) {
+    Scene scene = *HumanoidGltf().build().import();
+    scene.roles = {{3, static_cast<std::uint16_t>(Role::jaw), 0}};
+    find_roles(scene);
+    EXPECT_EQ(scene.roles.size(), 1u);
+}
+
+}  // namespace
+}  // namespace bendy::converter::find_roles_test
