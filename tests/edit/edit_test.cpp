@@ -226,6 +226,57 @@ TEST(Roles, GoWithTheirJoints) {
     EXPECT_EQ(kept[1].place, 2u);
 }
 
+/// "3 tail 2" for each role of the file.
+std::vector<std::string> roles_of(const Buffer& file) {
+    std::vector<std::string> lines;
+    const Loaded loaded(file);
+    for (const RoleRecord& record : loaded.document.objects.front().roles) {
+        lines.push_back(std::to_string(record.joint) + ' ' + std::string(kValueNames<Role>.at(record.role)) + ' ' +
+                        std::to_string(record.place));
+    }
+    return lines;
+}
+
+Buffer with_role(const Buffer& file, const std::string& text) {
+    const auto what = parse_role(text);
+    EXPECT_TRUE(what) << what.error().message;
+    Log log;
+    Edited edited = set_role(file, *what, log);
+    EXPECT_TRUE(edited) << edited.error().message;
+    return edited ? *std::move(edited) : Buffer();
+}
+
+TEST(Roles, AreSetAndTakenAway) {
+    using Roles = std::vector<std::string>;
+    const Buffer bare = test::sample_file();
+    Buffer file = with_role(bare, "tail:2=tail*");
+    EXPECT_EQ(roles_of(file), Roles{"3 tail 2"});
+    file = with_role(with_role(file, "head=spine"), "hips=hip");
+    EXPECT_EQ(roles_of(file), (Roles{"0 hips 0", "1 head 0", "3 tail 2"}));
+    EXPECT_EQ(roles_of(with_role(file, "head=#2")), (Roles{"0 hips 0", "2 head 0", "3 tail 2"}));
+    EXPECT_EQ(roles_of(with_role(file, "jaw=spine")), (Roles{"0 hips 0", "1 jaw 0", "3 tail 2"}));
+    EXPECT_EQ(with_role(file, "head=spine"), file);
+    EXPECT_EQ(with_role(file, "jaw="), file);
+    EXPECT_EQ(with_role(with_role(with_role(file, "head="), "hips="), "tail:2="), bare);
+    EXPECT_EQ(stripped(file, Part::roles), bare);
+}
+
+TEST(Roles, SayWhatIsWrong) {
+    const auto wrong = [](std::string_view text) {
+        const auto what = parse_role(text);
+        return what ? std::string() : what.error().message;
+    };
+    EXPECT_EQ(wrong("hips"), "\"hips\" is not ROLE=JOINT");
+    EXPECT_EQ(wrong("left_foott=a"), "there is no role \"left_foott\"; did you mean \"left_foot\"?");
+    EXPECT_EQ(wrong("none=a"), "there is no role \"none\"");
+    EXPECT_EQ(wrong("tail:x=a"), "\"x\" is not a place in a chain, 0 to 65535");
+    EXPECT_EQ(wrong("tail:65536=a"), "\"65536\" is not a place in a chain, 0 to 65535");
+    EXPECT_EQ(wrong("hips:1=a"), "\"hips\" is one joint and has no places");
+    Log log;
+    EXPECT_FALSE(set_role(test::sample_file(), {Role::hips, 0, "nobody"}, log));
+    EXPECT_FALSE(set_role(test::sample_file(), {Role::hips, 0, "*"}, log));
+}
+
 TEST(Names, Matches) {
     EXPECT_TRUE(matches("a*c", "abbc"));
     EXPECT_TRUE(matches("*", ""));
@@ -260,6 +311,7 @@ void edit_in_every_way(const Buffer& file, const Buffer& good) {
     look(strip(file, {Part::textures, "#0"}, log));
     look(strip(file, {Part::targets, "#0"}, log));
     look(strip(file, {Part::meshes, "#0"}, log));
+    look(set_role(file, {Role::tail, 1, "#1"}, log));
     look(rename(file, {Named::joint, {{"*", "x*"}}}, log));
     look(extract(file, "#1", log));
     look(merge_clips(file, good, SameName::number, log));

@@ -196,9 +196,9 @@ std::string constraints_text(const ChunkTree& tree, std::uint32_t pivot) {
 
 /// Describes a joint: its place, what moves with it, its limits, and whether the author left data on it.
 std::string joint_text(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs) {
-    std::string text;
+    std::string text = rigs.role_of(number);
     const std::uint32_t pivot = tree.find(number, FourCC("PIVO"));
-    if (rigs.has_rest(number)) text.append("at ").append(brief(rigs.joint_of(number)->rest.translation));
+    if (rigs.has_rest(number)) add_part(text, "at " + brief(rigs.joint_of(number)->rest.translation));
     std::array<std::uint64_t, kTopologies> polygons{};
     for (const SubmeshView& range : rigs.submeshes_of(number))
         polygons[static_cast<std::size_t>(range.topology)] += range.count / corners(range.topology);

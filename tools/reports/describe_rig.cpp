@@ -3,6 +3,7 @@
 #include "reports/messages.h"
 
 #include <bendy/format/ik_chain.h>
+#include <bendy/format/role.h>
 #include <bendy/format/text.h>
 
 #include <algorithm>
@@ -126,6 +127,8 @@ RigIndex::RigIndex(const ChunkTree& tree) : tree_(&tree) {
         Object& object = objects_.emplace_back();
         object.chunk = number;
         object.skeleton = read_skeleton(tree, number, ignored);
+        const auto joints = static_cast<std::uint32_t>(object.skeleton.joints.size());
+        object.roles = read_roles(tree, number, joints, ignored);
         // POLY may come after a child's chunk.
         std::stable_sort(object.skeleton.submeshes.begin(), object.skeleton.submeshes.end(),
                          [](const SubmeshView& x, const SubmeshView& y) { return x.joint < y.joint; });
@@ -180,6 +183,20 @@ std::span<const SubmeshView> RigIndex::submeshes_of(std::uint32_t chunk) const {
     const auto last =
         std::find_if(first, skeleton.submeshes.end(), [&](const SubmeshView& view) { return view.joint != number; });
     return {skeleton.submeshes.data() + (first - skeleton.submeshes.begin()), static_cast<std::size_t>(last - first)};
+}
+
+std::string RigIndex::role_of(std::uint32_t chunk) const {
+    const JointView* view = joint_of(chunk);
+    if (view == nullptr) return {};
+    const Object& object = *object_of(chunk);
+    const auto joint = static_cast<std::uint32_t>(view - object.skeleton.joints.data());
+    const auto record =
+        std::lower_bound(object.roles.begin(), object.roles.end(), joint,
+                         [](const RoleRecord& role, std::uint32_t other) { return role.joint < other; });
+    if (record == object.roles.end() || record->joint != joint) return {};
+    std::string text(name_at(kValueNames<Role>, record->role));
+    if (record->role >= static_cast<std::uint16_t>(kFirstChainRole)) text += ' ' + std::to_string(record->place);
+    return text;
 }
 
 std::string RigIndex::links_text(const Object& object, std::uint32_t chain, const ChainRecord& record) const {

@@ -2,6 +2,7 @@
 
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/joint.h>
+#include <bendy/format/records.h>
 
 #include <array>
 #include <cstddef>
@@ -48,6 +49,8 @@ public:
     [[nodiscard]] bool has_rest(std::uint32_t chunk) const;
     /// Returns a SKIN's submeshes, wherever they are stored.
     [[nodiscard]] std::span<const SubmeshView> submeshes_of(std::uint32_t chunk) const;
+    /// Returns the role of a SKIN, "left_hand" or "tail 2"; empty if it has none.
+    [[nodiscard]] std::string role_of(std::uint32_t chunk) const;
     /// Describes a PULL: "0.5 in LeftArm".
     [[nodiscard]] std::string chain_weight_text(std::uint32_t chunk) const;
 
@@ -56,6 +59,7 @@ private:
         std::uint32_t chunk = 0;
         SkeletonView skeleton;
         std::vector<std::uint32_t> depths;           ///< by joint; a root has 0
+        std::span<const RoleRecord> roles;           ///< ascending by joint
         std::vector<std::uint32_t> chains;           ///< the IKCH chunks
         std::vector<ChainWeightView> chain_weights;  ///< by chain, then joint
     };

@@ -29,7 +29,7 @@ using Buffer = std::vector<std::byte>;
 struct EditArguments {
     std::filesystem::path input;
     std::filesystem::path output;
-    std::vector<std::string> strips, renames, joint_renames, extracts;
+    std::vector<std::string> strips, renames, joint_renames, roles, extracts;
     std::vector<std::filesystem::path> joint_tables, merges;
     std::filesystem::path root;
     std::string same_name = "error";
@@ -85,6 +85,7 @@ public:
         if (option == "--rename-joint")
             return add_pair("--rename-joint", edit::Named::joint, arguments_.joint_renames[number]);
         if (option == "--rename-joints") return add_table(arguments_.joint_tables[number]);
+        if (option == "--role") return add_role(arguments_.roles[number]);
         if (option == "--merge") return add_merge(arguments_.merges[number]);
         if (option == "--extract") return add_extract(arguments_.extracts[number]);
     }
@@ -125,6 +126,13 @@ private:
         steps_.emplace_back(
             [rename = std::move(rename_)](Bytes file, edit::Log& log) { return edit::rename(file, rename, log); });
         rename_ = {};
+    }
+
+    void add_role(const std::string& text) {
+        close_rename();
+        const auto what = edit::parse_role(text);
+        if (!what) throw CLI::ValidationError("--role", what.error().message);
+        steps_.emplace_back([what = *what](Bytes file, edit::Log& log) { return edit::set_role(file, what, log); });
     }
 
     void add_merge(const std::filesystem::path& path) {
@@ -215,6 +223,8 @@ void add_edit(CLI::App& program) {
     add("--rename-joints", arguments->joint_tables, R"(a JSON file, {"old": "new", ...})");
     add("--rename", arguments->renames,
         "KIND:OLD=NEW; KIND is joint, clip, chain, mesh, target, material, texture or object");
+    add("--role", arguments->roles,
+        "ROLE=JOINT: what a joint is in the body, as in left_hand=Hand.L or tail:2=Tail3; without JOINT, nobody");
     add("--merge", arguments->merges,
         "add the clips of another file (bendy or glTF); tracks go to the joints of the same name");
     command
@@ -243,7 +253,8 @@ void add_edit(CLI::App& program) {
         for (const CLI::Option* option : command->parse_order()) steps.add(option->get_name());
         const auto taken = steps.take();
         if (taken.empty())
-            throw CLI::ValidationError("edit", "there is nothing to do: --strip, --rename-joint, --merge, --extract");
+            throw CLI::ValidationError("edit",
+                                       "there is nothing to do: --strip, --rename-joint, --role, --merge, --extract");
         run(*arguments, taken, outputs);
     });
 }

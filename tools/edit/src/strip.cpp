@@ -27,6 +27,7 @@ constexpr std::array kWords{Word{Part::textures, "texture", "textures"},
                             Word{Part::clips, "clip", "clips"},
                             Word{Part::markers, "", "markers"},
                             Word{Part::chains, "chain", "chains"},
+                            Word{Part::roles, "", "roles"},
                             Word{Part::constraints, "constraint", "constraints"},
                             Word{Part::lod, "", "lod"},
                             Word{Part::tangents, "", "tangents"},
@@ -84,6 +85,8 @@ private:
                 return strip_unknown();
             case Part::markers:
                 return strip_leaves(FourCC("MARK"));
+            case Part::roles:
+                return strip_leaves(FourCC("ROLE"));
             case Part::lod:
                 return strip_leaves(FourCC("LODD"));
             case Part::tangents:

@@ -2,6 +2,7 @@
 
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/names.h>
+#include <bendy/format/records.h>
 #include <bendy/format/result.h>
 
 #include <cstddef>
@@ -49,6 +50,7 @@ enum class Part : std::uint8_t {
     clips,        ///< CYCL
     markers,      ///< MARK
     chains,       ///< IKCH and PULL
+    roles,        ///< ROLE
     constraints,  ///< LIMT; by name: the name of a joint
     lod,          ///< LODD
     tangents,     ///< TANG, also of morph targets
@@ -65,8 +67,8 @@ struct Strip {
 };
 
 /// Parses "clips", "clip:Run", "mesh:Hat*": the name of a part in singular or plural, optionally followed by which
-/// ones. Parts that cannot be selected by name (markers, lod, tangents, colours, attributes, extras, extensions) take
-/// none.
+/// ones. Parts that cannot be selected by name (markers, roles, lod, tangents, colours, attributes, extras, extensions)
+/// take none.
 Result<Strip, Problem> parse_strip(std::string_view text);
 /// Returns the words that parse_strip accepts, for help and error messages: "textures, materials, ...".
 std::string strip_words();
@@ -97,6 +99,19 @@ Result<Named, Problem> parse_named(std::string_view word);
 /// Returns the file with names changed, in NAME chunks or JNAM. A name that would become empty is a problem; two things
 /// of one kind that end up with the same name cause a warning.
 Edited rename(Bytes file, const Rename& what, Log& log);
+
+/// What a joint of the first object is in the body.
+struct SetRole {
+    Role role = Role::hips;
+    std::uint16_t place = 0;  ///< in a chain
+    std::string joint;        ///< see find_named; empty: nobody has the role
+};
+
+/// Parses "hips=Pelvis", "tail:2=Tail3", and "jaw=": nobody has the role.
+Result<SetRole, Problem> parse_role(std::string_view text);
+
+/// Returns the file in which the joint has the role, and nobody else; the role that it had before is free.
+Edited set_role(Bytes file, const SetRole& what, Log& log);
 
 /// How to handle a clip whose name is already taken.
 enum class SameName : std::uint8_t {
