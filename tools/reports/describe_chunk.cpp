@@ -196,9 +196,9 @@ std::string constraints_text(const ChunkTree& tree, std::uint32_t pivot) {
 
 /// Describes a joint: its place, what moves with it, its limits, and whether the author left data on it.
 std::string joint_text(const ChunkTree& tree, std::uint32_t number, const RigIndex& rigs) {
-    std::string text = rigs.role_of(number);
+    std::string text;
     const std::uint32_t pivot = tree.find(number, FourCC("PIVO"));
-    if (rigs.has_rest(number)) add_part(text, "at " + brief(rigs.joint_of(number)->rest.translation));
+    if (rigs.has_rest(number)) text.append("at ").append(brief(rigs.joint_of(number)->rest.translation));
     std::array<std::uint64_t, kTopologies> polygons{};
     for (const SubmeshView& range : rigs.submeshes_of(number))
         polygons[static_cast<std::size_t>(range.topology)] += range.count / corners(range.topology);
@@ -214,6 +214,7 @@ std::string joint_text(const ChunkTree& tree, std::uint32_t number, const RigInd
         if (polygons[topology] != 0)
             add_part(text, grouped(polygons[topology]) + ' ' + std::string(kValueNames<Topology>[topology]));
     }
+    if (const std::string role = rigs.role_of(number); !role.empty()) add_part(text, role);
     if (const std::string limits = constraints_text(tree, pivot); !limits.empty()) add_part(text, limits);
     if (has_extras) add_part(text, "extras");
     if (has_extensions) add_part(text, "extensions");

@@ -35,7 +35,7 @@ public:
             weights_[chain_weight.chain].add(key_of(chain_weight.joint), json_text(chain_weight.weight));
     }
 
-    /// \param with_markers  also writes the markers and curves of all clips
+    /// \param with_markers  also writes the roles of joints, and the markers and curves of all clips
     std::string write(bool with_markers) const {
         std::string text = "{\n  \"bendy_rig\": 1,\n  \"complete\": true";
         const std::vector<ConstraintView>& records = object_.skeleton.constraints;  // ordered by joint
@@ -53,7 +53,7 @@ public:
         for (std::size_t i = 0; i < object_.chains.size(); ++i)
             chains += (chains.empty() ? "\n    " : ",\n    ") + write_chain(i);
         if (!chains.empty()) text += ",\n  \"chains\": [" + chains + "\n  ]";
-        const std::string roles = write_roles();
+        const std::string roles = with_markers ? write_roles() : std::string();
         if (!roles.empty()) text += ",\n  \"roles\": {" + roles + "\n  }";
         const std::string markers = with_markers ? write_markers() : std::string();
         if (!markers.empty()) text += ",\n  \"markers\": {" + markers + "\n  }";
