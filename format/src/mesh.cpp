@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 
@@ -424,6 +425,22 @@ MeshView read_mesh(const ChunkTree& tree, std::uint32_t chunk, std::uint32_t joi
     mesh.indices = reader.find(chunk, FourCC("INDX"), forms::kIndices, std::nullopt);
     reader.check_indices(mesh.indices, mesh.vertices, ErrorCode::kIndexRange);
     return mesh;
+}
+
+std::vector<std::uint32_t> source_order(const MeshView& mesh) {
+    constexpr unsigned kUnsigned = any_of(ComponentType::u8, ComponentType::u16, ComponentType::u32);
+    std::vector<std::uint32_t> order;
+    for (const auto& [name, numbers] : mesh.attributes) {
+        const bool is_plain = !numbers.normalised && (kUnsigned >> static_cast<unsigned>(numbers.type) & 1u) != 0;
+        if (name != kSourceVertex || numbers.components != 1 || !is_plain) continue;
+        order.resize(mesh.vertices);
+        std::iota(order.begin(), order.end(), 0u);
+        std::stable_sort(order.begin(), order.end(), [&, &stream = numbers](std::uint32_t a, std::uint32_t b) {
+            return stream.index(a, 0) < stream.index(b, 0);
+        });
+        break;
+    }
+    return order;
 }
 
 void check_mesh_values(const ChunkTree& tree, const MeshView& mesh, Faults& faults) {

@@ -168,7 +168,7 @@ def main():
         sys.exit('%s is there already, and stays as it is' % folder)
     folder.mkdir()
     everything = [(0, 0.33), (0, 0.9), (1, 0.6), (1, 1.25)]
-    variants = [('character', [], everything), ('character', ['--sort-vertices'], everything),
+    variants = [('character', [], everything), ('character', ['--keep-order'], everything),
                 ('character', ['--compact'], everything), ('character', ['--lod'], everything),
                 ('character', ['--compact', '--lod'], everything), ('character', ['--images=link'], everything[:1]),
                 ('character', ['--max-error', '1cm'], everything[:1]), ('character', ['--rig'], everything),

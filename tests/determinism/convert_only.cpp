@@ -1,5 +1,5 @@
 // As much of `bendy convert` as check_hashes.py calls, so that a build of the converter alone will do:
-//   bendy_convert_only convert -q IN -o OUT [--compact] [--lod] [--sort-vertices] [--auto-rig]
+//   bendy_convert_only convert -q IN -o OUT [--compact] [--lod] [--keep-order] [--auto-rig]
 //     [--max-error BOUND] [--rig FILE]
 #include <bendy/converter/convert.h>
 #include <bendy/format/file.h>
@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
             options.compact = converter::ErrorBound();
         } else if (option == "--lod") {
             options.lod = true;
-        } else if (option == "--sort-vertices") {
-            options.sort_vertices = true;
+        } else if (option == "--keep-order") {
+            options.keep_order = true;
         } else if (option == "--auto-rig") {
             options.auto_rig = true;
         } else if (option == "--max-error" && i + 1 < argc) {

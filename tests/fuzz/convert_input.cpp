@@ -15,7 +15,7 @@ enum Switch : unsigned {
     kAutoSkin = 1u << 3,
     kMergeClips = 1u << 4,
     kInstances = 1u << 5,
-    kSortVertices = 1u << 6,
+    kKeepOrder = 1u << 6,
     kWithRig = 1u << 7,
     kSkeleton = 1u << 8,
     kScene = 1u << 9,
@@ -55,7 +55,7 @@ converter::ConvertOptions ConvertInput::options() const {
     options.auto_skin = is_on(kAutoSkin);
     options.merge_clips = is_on(kMergeClips);
     options.lod = is_on(kLod);
-    options.sort_vertices = is_on(kSortVertices);
+    options.keep_order = is_on(kKeepOrder);
     options.gltf.instances = is_on(kInstances);
     options.gltf.embed_images = !is_on(kLeaveImages);
     if (is_on(kCompact)) options.compact = kBounds[byte(2) % kBounds.size()];

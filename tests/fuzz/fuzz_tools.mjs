@@ -67,7 +67,7 @@ const convertOptions = () =>
     autoSkin: true,
     skeleton: name(),
     rig: text('rig'),
-    sortVertices: true,
+    keepOrder: true,
     images: 'link',
     scene: oneOf([0, 7, name()]),
     instances: true,

@@ -32,7 +32,7 @@ PACKED = 8  # what fuzz_codec takes for a packed clip: the number after the last
 # The tails of fuzz_convert's input: switches in two bytes, a bound, a number; convert_input.cpp.
 TAILS = tuple(struct.pack("<HBB", *tail) for tail in (
     (0, 0, 0), (0b0000_0101, 0, 1), (0b0011_0010, 0, 2), (0b1001_1001, 1, 3), (0b0111_1111, 7, 4), (0b1101_0000_1001, 3, 16)))
-OPTIONS = ([], ["--compact"], ["--lod"], ["--lod", "--compact"], ["--auto-rig"], ["--sort-vertices"])
+OPTIONS = ([], ["--compact"], ["--lod"], ["--lod", "--compact"], ["--auto-rig"], ["--keep-order"])
 
 
 # What other writers' files have and ours do not.

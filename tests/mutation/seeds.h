@@ -26,7 +26,7 @@ inline constexpr std::array kSeeds{
     "tests/seeds/rope_compact",
     "tests/seeds/rope_lod",
     "tests/seeds/rope_compact_lod",
-    "tests/seeds/rope_sorted",
+    "tests/seeds/tangle",
     "tests/seeds/rope_rigged",
     "tests/seeds/rope_rigged_compact",
     "tests/seeds/plate",

@@ -23,8 +23,8 @@ TURNS = [(0, 0, 0, 1), (0, 0, QUARTER, QUARTER), (0.6, 0, 0, 0.8), (0, 0.28, 0, 
 IMAGE = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
 
 
-def rope(path, joints=4, rings=4, keys=4):
-    """A skinned tube of three-sided rings, and two clips."""
+def rope(path, joints=4, rings=4, keys=4, step=1):
+    """A skinned tube of three-sided rings, and two clips. Of its vertices, neighbours in the tube are `step` apart."""
     file = GltfFile(scenes=[{"nodes": [joints, 0]}])
     file.document["nodes"] = [
         {"name": f"bone{k}", "translation": [0, 0.5 if k else 0, 0], **({"children": [k + 1]} if k + 1 < joints else {})}
@@ -43,6 +43,10 @@ def rope(path, joints=4, rings=4, keys=4):
         for side in range(3):
             a, b = ring * 3 + side, ring * 3 + (side + 1) % 3
             triangles += [(a,), (b,), (a + 3,), (b,), (b + 3,), (a + 3,)]
+    number = [vertex * step % len(corners) for vertex in range(len(corners))]
+    order = sorted(range(len(corners)), key=number.__getitem__)
+    corners, normals, bones, weights = ([stream[k] for k in order] for stream in (corners, normals, bones, weights))
+    triangles = [(number[vertex],) for vertex, in triangles]
     inverse = [(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -0.5 * k, 0, 1) for k in range(joints)]
     attributes = {"POSITION": file.add(corners, "VEC3"), "NORMAL": file.add(normals, "VEC3"),
                   "JOINTS_0": file.add(bones, "VEC4", 5121), "WEIGHTS_0": file.add(weights, "VEC4")}
@@ -150,6 +154,7 @@ def make_sources(folder):
     return {"rope": rope(folder / "rope.gltf"), "plate": plate(folder / "plate.gltf"),
             "robot": robot(folder / "robot.gltf"),
             "long": rope(folder / "long.gltf", joints=3, rings=3, keys=40),
+            "tangle": rope(folder / "tangle.gltf", joints=10, rings=8, step=7),
             "chain": rope(folder / "chain.gltf", joints=10, rings=2, keys=2),
             "rig": rig(folder / "rig.json")}
 
@@ -159,12 +164,13 @@ def conversions(sources):
     rigged = ["--rig", str(sources["rig"])]
     return {
         "rope": ("rope", []), "rope_compact": ("rope", ["--compact"]), "rope_lod": ("rope", ["--lod"]),
-        "rope_compact_lod": ("rope", ["--compact", "--lod"]), "rope_sorted": ("rope", ["--sort-vertices"]),
+        "rope_compact_lod": ("rope", ["--compact", "--lod"]),
         "rope_rigged": ("rope", rigged), "rope_rigged_compact": ("rope", [*rigged, "--max-error", "1mm"]),
         "plate": ("plate", []), "plate_compact": ("plate", ["--compact"]), "plate_lod": ("plate", ["--lod"]),
         "robot": ("robot", []), "robot_compact": ("robot", ["--compact"]),
         "long_compact": ("long", ["--compact"]), "long_exact": ("long", []),
         "chain_compact": ("chain", ["--compact"]),
+        "tangle": ("tangle", []), "tangle_kept": ("tangle", ["--keep-order"]),
     }
 
 

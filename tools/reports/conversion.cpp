@@ -103,7 +103,7 @@ converter::ConvertOptions options_of(const ConvertArguments& arguments) {
     if (arguments.compact) options.compact = converter::ErrorBound();
     if (!arguments.max_error.empty()) options.compact = *converter::parse_error_bound(arguments.max_error);
     options.lod = arguments.lod;
-    options.sort_vertices = arguments.sort_vertices;
+    options.keep_order = arguments.keep_order;
     options.threads = jobs_of(arguments);
     return options;
 }

@@ -83,7 +83,9 @@ function convert(source, ...options) {
 
 const url = (source) => `${address}corpus/${source.split(path.sep).map(encodeURIComponent).join('/')}`;
 const loadGltf = (source) => new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).loadAsync(url(source));
-const loadBendy = (source, ...options) => new BendyLoader().loadAsync(convert(source, ...options));
+// Vertex by vertex, only the source's order can be compared with GLTFLoader's.
+const loadBendy = (source, ...options) =>
+  new BendyLoader().loadAsync(convert(source, ...(options.some((option) => /--(lod|compact)/.test(option)) ? options : [...options, '--keep-order'])));
 
 /** The objects of a glTF file's nodes in the order of a character's joints. */
 async function objectsOfNodes({ parser }) {

@@ -120,7 +120,7 @@ for (const file of examples) {
     for (const [options, args] of [
       [{}, []],
       ...ways,
-      [{ sortVertices: true }, ['--sort-vertices']],
+      [{ keepOrder: true }, ['--keep-order']],
       [{ compact: '0.1mm', lod: true }, ['--max-error', '0.1mm', '--lod']],
       [{ mergeClips: true }, ['--merge-clips']],
     ]) {

@@ -18,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bendy::tools {
@@ -42,6 +43,22 @@ bool is_mirrored(const Model& model, Pose& pose, std::uint32_t mesh) {
     if (!view.is_rigid() || view.vertices == 0) return false;
     const std::uint32_t joint = model.rigid_mover(mesh, 0);
     return joint != kNone && glm::determinant(glm::mat3(pose.model_space()[joint])) < 0.0f;
+}
+
+/// Puts vertices and indices into the source's order, if the file has it.
+void restore_order(const Mesh& view, PosedMesh& mesh) {
+    const std::vector<std::uint32_t> order = source_order(view);
+    if (order.empty()) return;
+    std::vector<std::uint32_t> number(order.size());
+    for (std::uint32_t at = 0; at < order.size(); ++at) number[order[at]] = at;
+    for (auto* vectors : {&mesh.positions, &mesh.normals}) {
+        if (vectors->empty()) continue;
+        const std::vector<glm::vec3> stored = std::exchange(*vectors, {});
+        for (const std::uint32_t vertex : order) vectors->push_back(stored[vertex]);
+    }
+    for (auto* list : {&mesh.triangles, &mesh.lines, &mesh.points}) {
+        for (std::uint32_t& index : *list) index = number[index];
+    }
 }
 
 void add_elements(const Model& model, Pose& pose, const Lod& lod, std::vector<PosedMesh>& meshes) {
@@ -100,6 +117,8 @@ public:
         for (std::uint32_t number = 0; number < model_.meshes().size(); ++number)
             object.meshes.push_back(posed_mesh(pose, number));
         add_elements(model_, pose, lod_, object.meshes);
+        for (std::uint32_t number = 0; number < model_.meshes().size() && model_.collapse() == nullptr; ++number)
+            restore_order(model_.meshes()[number], object.meshes[number]);
         return object;
     }
 

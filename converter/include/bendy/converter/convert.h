@@ -43,9 +43,10 @@ struct ConvertOptions {
     std::function<void(double)> progress;
     /// Compute the sequence in which vertices collapse (LODD), and order the vertices by it.
     bool lod = false;
-    /// Place vertices that follow the same bones next to each other, which makes skinning faster. Ignored with `lod`
-    /// and `compact`, which order the vertices themselves.
-    bool sort_vertices = false;
+    /// Keep the source's vertex order. Otherwise vertices that follow the same bones are stored next to each other
+    /// where that makes skinning faster, with the numbers that they have in the source. Ignored with `lod` and
+    /// `compact`, which order the vertices in any case.
+    bool keep_order = false;
     /// Maximum number of threads for this file, including the caller's, at least 1. The bytes do not depend on it. Only
     /// `compact` uses more than one.
     unsigned threads = 1;

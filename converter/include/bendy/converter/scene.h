@@ -114,6 +114,9 @@ struct Mesh {
     std::vector<float> weights;          ///< one per entry of `bones`; sum 1 per vertex, never negative
     Palette palette;
     std::vector<MorphTarget> targets;  ///< frames come last
+    /// If the vertices are in another order than in the source: the number that each one has there. Empty: they are
+    /// not, or there is no way back. A scene that was imported is in the source's order.
+    std::vector<std::uint32_t> source_numbers;
     /// Set if `positions` lie on a grid. They are then stored on it, and normals as indices into a list that all frames
     /// share. The list holds 256; further normals are replaced by the nearest.
     std::optional<FrameGrid> grid;

@@ -2,6 +2,7 @@
 
 #include "optimise/compact/compact_targets.h"
 #include "optimise/compact/quantise.h"
+#include "optimise/passes/level_order.h"
 #include "scene/evaluate.h"
 #include "scene/frame_shapes.h"
 #include "scene/rest_frames.h"
@@ -330,22 +331,6 @@ void compact_mesh(Scene& scene, std::uint32_t number, CompactMesh& compact, cons
         take_back(stored.normals, target.normals);
         take_back(stored.tangents, target.tangents);
     }
-}
-
-}  // namespace
-
-namespace {
-
-/// The vertex counts of a mesh at its levels, ascending, from the base to all. Levels that would split vertices that
-/// collapse together are left out.
-std::vector<std::uint32_t> levels_of(const Scene& scene, std::uint32_t number) {
-    const Mesh& mesh = scene.meshes[number];
-    std::vector<std::uint32_t> alive{mesh.base, static_cast<std::uint32_t>(mesh.positions.size())};
-    for (const LodLevel& level : scene.levels) alive.push_back(level.alive[number]);
-    std::erase_if(alive, [&](std::uint32_t n) { return n < mesh.joined.size() && mesh.joined[n] != 0; });
-    std::sort(alive.begin(), alive.end());
-    alive.erase(std::unique(alive.begin(), alive.end()), alive.end());
-    return alive;
 }
 
 }  // namespace

@@ -41,9 +41,9 @@ CompactGeometry compact_geometry(Scene& scene, double most_error, const std::fun
 void merge_vertices(Mesh& mesh, CompactMesh& compact);
 
 /// Orders the triangles of each range of assign_polygons so that neighbours are adjacent, and the vertices by first
-/// use; the mesh's parts become these ranges. Lines and points keep their order.
-/// \param levels  of a mesh with a collapse sequence: the number of vertices alive at each, ascending, from mesh.base
-///                to all; vertices stay between the same two levels, after the vertex that they collapse onto
+/// use, or by their bones where that saves much of the work of skinning; the mesh's parts become these ranges. Lines
+/// and points keep their order. \param levels  as levels_of returns them; used for a mesh with a collapse sequence, see
+/// places_in_levels
 void order_for_codecs(Mesh& mesh, CompactMesh& compact, std::span<const std::uint32_t> levels);
 
 }  // namespace bendy::converter

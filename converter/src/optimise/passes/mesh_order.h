@@ -32,11 +32,6 @@ AssignedPolygons assign_polygons(const Mesh& mesh);
 /// \return the new number of each old vertex, kNone if it was omitted
 std::vector<std::uint32_t> permute_vertices(Mesh& mesh, std::span<const std::uint32_t> order);
 
-/// Places vertices that follow the same bones next to each other, so that skinning eight neighbours needs few matrices:
-/// sorted by their list of bones; vertices with the same list keep their order. Rigid meshes and meshes in the order of
-/// a collapse sequence are unchanged.
-void sort_by_bones(Mesh& mesh);
-
 /// Keeps one level of detail: the first `vertices[m]` vertices of each mesh; the others collapse onto them. Triangles
 /// without area and the collapse sequences are removed. Throws Failure if there are not as many numbers as meshes, or a
 /// number is below a mesh's base or, for a mesh without a sequence, not its vertex count.

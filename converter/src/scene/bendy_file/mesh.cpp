@@ -37,7 +37,8 @@ public:
                        Budget& budget, Report& report)
         : tree_(tree), view_(view), polygons_(std::move(submeshes)), budget_(budget), report_(report) {}
 
-    Mesh import() {
+    /// \param is_in_levels  it has a collapse sequence, which counts on the stored order
+    Mesh import(bool is_in_levels) {
         mesh_.name = view_.name;
         mesh_.extras = view_.extras;
         mesh_.more = view_.more;
@@ -51,6 +52,7 @@ public:
             read_influences();
         }
         check_order();
+        if (!is_in_levels) restore_order();
         return std::move(mesh_);
     }
 
@@ -68,6 +70,7 @@ private:
         for (const StreamView& stream : view_.texture_coords) mesh_.texture_coords.push_back(read_stream({}, stream));
         for (const StreamView& stream : view_.colours) mesh_.colours.push_back(read_stream({}, stream));
         for (const AttributeView& attribute : view_.attributes) {
+            if (attribute.name == kSourceVertex) continue;  // see restore_order
             mesh_.attributes.push_back(read_stream(std::string(attribute.name), attribute.values));
             warn_of_large_integers(attribute.values);
         }
@@ -223,6 +226,12 @@ private:
             report_.warn("polygons are reassigned to joints and reordered", place(view_.chunk));
     }
 
+    void restore_order() {
+        take(view_.vertices, sizeof(std::uint32_t));
+        const std::vector<std::uint32_t> order = source_order(view_);
+        if (!order.empty()) permute_vertices(mesh_, order);
+    }
+
     const ChunkTree& tree_;
     const MeshView& view_;
     std::vector<const SubmeshView*> polygons_;
@@ -239,7 +248,10 @@ void import_stored_meshes(const ChunkTree& tree, const ObjectView& object, Budge
     for (const SubmeshView& range : object.skeleton.submeshes) submeshes[range.mesh].push_back(&range);
     for (std::size_t mesh = 0; mesh < object.meshes.size(); ++mesh) {
         StoredMeshImporter importer(tree, object.meshes[mesh], std::move(submeshes[mesh]), budget, report);
-        scene.meshes.push_back(importer.import());
+        const bool is_in_levels =
+            object.collapse && std::any_of(object.collapse->meshes.begin(), object.collapse->meshes.end(),
+                                           [&](const MeshCollapseView& one) { return one.mesh == mesh; });
+        scene.meshes.push_back(importer.import(is_in_levels));
     }
 }
 

@@ -338,7 +338,7 @@ void warn_of_unused_images(const Scene& scene, Report& report) {
 std::uint64_t bulk_of(const Mesh& mesh) {
     const auto bytes = [](const auto& list) { return std::uint64_t{list.size()} * sizeof(list[0]); };
     std::uint64_t sum = bytes(mesh.positions) + bytes(mesh.normals) + bytes(mesh.tangents) + bytes(mesh.bones) +
-                        bytes(mesh.weights) + bytes(mesh.collapse) + bytes(mesh.joined);
+                        bytes(mesh.weights) + bytes(mesh.collapse) + bytes(mesh.joined) + bytes(mesh.source_numbers);
     for (const auto* streams : {&mesh.texture_coords, &mesh.colours, &mesh.attributes}) {
         for (const Stream& stream : *streams) sum += bytes(stream.values);
     }

@@ -3,6 +3,7 @@
 #include "scene/stored_numbers.h"
 
 #include <bendy/format/charconv.h>
+#include <bendy/format/mesh.h>
 #include <bendy/format/records.h>
 
 #include <array>
@@ -194,6 +195,12 @@ void put_mesh(LeafWriter& out, const Mesh& mesh, std::span<const std::uint32_t> 
         put_text(out, FourCC("NAME"), stream.name);
         put_stream(out, FourCC("VALS"), {ComponentType::f32, false, std::as_bytes(std::span(stream.values))},
                    stream.components, vertices);
+        out.end();
+    }
+    if (!mesh.source_numbers.empty()) {
+        out.begin(FourCC("USER"));
+        put_text(out, FourCC("NAME"), std::string(kSourceVertex));
+        put_stream(out, FourCC("VALS"), smallest_exact_indices(mesh.source_numbers, vertices, true), 1, vertices);
         out.end();
     }
     if (mesh.influences != 0) {

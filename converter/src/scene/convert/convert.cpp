@@ -3,8 +3,8 @@
 #include "optimise/collapse/collapse_vertices.h"
 #include "optimise/compact/build_compact.h"
 #include "optimise/passes/auto_skin.h"
+#include "optimise/passes/bone_order.h"
 #include "optimise/passes/merge_clips.h"
-#include "optimise/passes/mesh_order.h"
 #include "rigging/rig/attach_rig.h"
 #include "rigging/rig/clips.h"
 #include "rigging/rig/parse_rig.h"
@@ -169,8 +169,7 @@ Result<Buffer, ImportError> convert_any(std::optional<Buffer> source, const std:
         if (options.progress) options.progress(0.0);
         if (options.lod) collapse_vertices(*scene, part_of(options.progress, 0.0, options.compact ? kLodDone : 1.0));
         const Progress compact_progress = part_of(options.progress, options.lod ? kLodDone : 0.0, 1.0);
-        if (options.sort_vertices && !options.lod && !options.compact)
-            std::for_each(scene->meshes.begin(), scene->meshes.end(), sort_by_bones);
+        if (!options.keep_order && !options.compact) sort_by_bones(*scene);
         Buffer bytes = options.compact ? build_compact(*scene, {*options.compact, compact_progress, options.threads},
                                                        kGenerator, report)
                                        : build_chunks(*std::move(scene), kGenerator, report);

@@ -134,6 +134,13 @@ struct MeshView {
     [[nodiscard]] std::uint32_t frames() const { return static_cast<std::uint32_t>(targets.size()) - first_frame + 1; }
 };
 
+/// The name of the USER whose numbers are those of the vertices in the source (spec/chunks/USER.md).
+inline constexpr std::string_view kSourceVertex = "SOURCE_VERTEX";
+
+/// Returns the mesh's vertices in the order of the source: by their numbers there; those with the same number as they
+/// are stored. Empty if the mesh has no such numbers, unsigned integers, one for each vertex.
+std::vector<std::uint32_t> source_order(const MeshView& mesh);
+
 /// Reads a VECT chunk, except for matrices derived from the rest pose, and makes all checks that memory safety depends
 /// on: types, counts, sizes, and every index against the `joints` of the object, the palette and the mesh itself.
 /// Faults are added to `faults`; a part with a fault is left out.
