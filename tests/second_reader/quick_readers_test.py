@@ -188,7 +188,7 @@ class Test:
         characters = 0
         for model in models:
             file = self.work / f"{model.parent.name}_{model.name}.bendy"
-            if self.bendy("convert", "--quiet", model, "-o", file).returncode == 0:
+            if self.bendy("convert", "--quiet", "--keep-order", model, "-o", file).returncode == 0:
                 characters += self.character(file)
             else:
                 self.expect("examples" not in model.parts, f"{model.name} is not converted")

@@ -28,8 +28,8 @@ struct Precedence {
     std::uint32_t after = 0;
 };
 
-/// Finds which groups of vertices must keep their order: it collapses a mesh as its sequence says. A sequence that takes
-/// too long is hostile: a simplifier's takes a few steps a vertex.
+/// Finds which groups of vertices must keep their order: it collapses a mesh as its sequence says. A sequence that
+/// takes too long is hostile: a simplifier's takes a few steps a vertex.
 class Collapses {
 public:
     explicit Collapses(const Mesh& mesh) : mesh_(mesh), first_of_(mesh.positions.size()) {
