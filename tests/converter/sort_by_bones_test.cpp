@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <random>
 #include <set>
 #include <tuple>
@@ -221,11 +222,15 @@ TEST_F(SortedLevels, HaveOnlyMeasuredTrianglesBetweenThem) {
         const Mesh& mesh = before.meshes[m];
         if (mesh.collapse.empty()) continue;
         std::set<std::array<float, 9>> measured;
+        std::vector<std::array<float, 9>> last;
         for (auto alive = mesh.base; alive <= mesh.positions.size(); ++alive) {
             if (alive < mesh.positions.size() && mesh.joined[alive] != 0) continue;
-            for (const auto& triangle : triangles_at(mesh, alive)) measured.insert(triangle);
+            std::vector<std::array<float, 9>> triangles = triangles_at(mesh, alive);
+            std::set_difference(triangles.begin(), triangles.end(), last.begin(), last.end(),
+                                std::inserter(measured, measured.end()));
+            last = std::move(triangles);
         }
-        for (auto alive = mesh.base; alive <= mesh.positions.size(); alive += 7) {
+        for (auto alive = mesh.base; alive <= mesh.positions.size(); alive += 97) {
             if (alive < mesh.positions.size() && after.meshes[m].joined[alive] != 0) continue;
             for (const auto& triangle : triangles_at(after.meshes[m], alive)) ASSERT_TRUE(measured.contains(triangle));
         }
