@@ -51,9 +51,8 @@ double constrain_joint(Pose& pose, const Constraint& constraint, Legal which) {
     const JointTransform& rest = pose.model().joints()[constraint.joint].rest;
     JointTransform joint = pose.local(constraint.joint);
     const glm::dquat R = to_constraint_space(constraint, rest.rotation, joint.rotation);
-    const glm::dquat legal = which == Legal::nearest
-                                 ? clamp_rotation(constraint, R)
-                                 : quick_legal_rotation(constraint.model, constraint.euler_order, constraint.shape, R);
+    const glm::dquat legal =
+        which == Legal::nearest ? clamp_rotation(constraint, R) : quick_legal_rotation(constraint, constraint.shape, R);
     const double angle = angle_between(legal, R);
     const bool is_outside = angle > kRounding;
     if (is_outside) joint.rotation = from_constraint_space(constraint, rest.rotation, legal);
