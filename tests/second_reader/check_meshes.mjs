@@ -36,11 +36,10 @@ function check_target(file, target, vertices) {
     let touched = vertices;
     if (list) {
         const indices = read_stream(file, list, null);
-        touched = indices ? indices.record.elements : null;
-        if (indices) {
-            if (indices.values.some((v) => v >= vertices)) file.add('INDEX_RANGE', list);
-            if (indices.values.some((v, k) => k > 0 && v <= indices.values[k - 1])) file.add('TARGET_ORDER', list);
-        }
+        if (!indices) return;  // how many vertices the streams are for is unknown
+        touched = indices.record.elements;
+        if (indices.values.some((v) => v >= vertices)) file.add('INDEX_RANGE', list);
+        if (indices.values.some((v, k) => k > 0 && v <= indices.values[k - 1])) file.add('TARGET_ORDER', list);
     }
     for (const id of ['POSI', 'NORM', 'TANG']) read_stream(file, file.child(target, id), touched);
 }
