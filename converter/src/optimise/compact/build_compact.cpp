@@ -18,7 +18,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <new>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -44,16 +44,12 @@ double geometry_share_of(const Scene& scene) {
     return moves ? kGeometryShare : kStillShare;
 }
 
-/// Measures the clips with measure_clips on the file's bytes; infinite if they cannot be read.
+/// Measures the clips with measure_clips on the file's bytes.
 std::vector<MeasuredError> measure(const Scene& exact, const CompactGeometry& geometry, Bytes bytes,
                                    std::span<const std::uint32_t> clips, MeasureOptions options) {
     Report unheard;
     const auto decoded = import_bendy(bytes, unheard);
-    if (!decoded) {
-        std::vector<MeasuredError> unknown(clips.size() + 1);
-        for (MeasuredError& error : unknown) error.metres = std::numeric_limits<double>::infinity();
-        return unknown;
-    }
+    if (!decoded) throw std::bad_alloc();  // what was just written can be read, if there is memory for it
     std::vector<std::vector<std::uint32_t>> maps;
     maps.reserve(geometry.meshes.size());
     for (const CompactMesh& mesh : geometry.meshes) maps.push_back(mesh.vertex_of);
