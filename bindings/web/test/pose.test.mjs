@@ -20,7 +20,7 @@ for (const name of ['fox.glb', 'robot.glb', 'left_hand_high.glb', 'cesium_man.gl
   'rigged_simple.gltf', 'gltf_extras.glb']) {
   characters[name] = () => {
     const file = corpusFile(`models/${name}`);
-    return file && convert(file);
+    return file && convert(file, '--keep-order');
   };
 }
 
