@@ -252,9 +252,10 @@ void add_edit(CLI::App& program) {
         Steps steps(*arguments, outputs);
         for (const CLI::Option* option : command->parse_order()) steps.add(option->get_name());
         const auto taken = steps.take();
-        if (taken.empty())
+        if (taken.empty()) {
             throw CLI::ValidationError("edit",
                                        "there is nothing to do: --strip, --rename-joint, --role, --merge, --extract");
+        }
         run(*arguments, taken, outputs);
     });
 }

@@ -71,9 +71,10 @@ Edited set_role(Bytes file, const SetRole& what, Log& log) {
     if (!what.joint.empty()) {
         const auto joints = find_named(names, what.joint, "joint");
         if (!joints) return joints.error();
-        if (joints->size() > 1)
+        if (joints->size() > 1) {
             return Problem{std::to_string(joints->size()) + " joints are called \"" + what.joint +
                            "\"; say which by its number, as in #" + std::to_string(joints->front())};
+        }
         record.joint = static_cast<std::uint32_t>(joints->front());
     }
     std::vector<RoleRecord> roles;

@@ -97,8 +97,11 @@ private:
             std::string joints;
             for (; i < records.size() && records[i].role == role; ++i)
                 joints += (joints.empty() ? "" : ", ") + json_text(name_of(records[i].joint));
-            if (role >= static_cast<std::uint16_t>(kFirstChainRole)) joints = '[' + joints + ']';
-            text += (text.empty() ? "\n    " : ",\n    ") + json_text(kValueNames<Role>[role]) + ": " + joints;
+            const bool is_list = role >= static_cast<std::uint16_t>(kFirstChainRole);
+            text += (text.empty() ? "\n    " : ",\n    ") + json_text(kValueNames<Role>[role]) + ": ";
+            text += is_list ? "[" : "";
+            text += joints;
+            text += is_list ? "]" : "";
         }
         return text;
     }
