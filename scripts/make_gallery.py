@@ -14,6 +14,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import notices
+
 ROOT = Path(__file__).resolve().parent.parent
 SOURCES = ROOT / "docs/gallery"
 WEB = ROOT / "bindings/web"
@@ -69,8 +71,8 @@ def write_pages(folder):
 
 def copy_modules(folder):
     shutil.copytree(WEB / "dist", folder / "bendy", ignore=shutil.ignore_patterns("*.d.ts", "ts5.6", "bundle", "page.html", "react.js"))
-    for name in ("LICENSE", "NOTICES.txt"):
-        shutil.copy(WEB / name, folder / "bendy")
+    shutil.copy(ROOT / "LICENSE", folder / "bendy")
+    (folder / "bendy/NOTICES.txt").write_text(notices.notices("npm"), encoding="utf-8")
     for name in THREE_FILES:
         (folder / "three" / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(THREE / name, folder / "three" / name)
@@ -84,6 +86,10 @@ def convert_characters(folder):
         shutil.copy(source, folder)
 
 
+def is_package_built():
+    return (WEB / "dist/viewer/index.js").exists()
+
+
 def make(folder):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
@@ -95,7 +101,7 @@ def make(folder):
 
 def main():
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/gallery").resolve()
-    if not (WEB / "dist/viewer/index.js").exists():
+    if not is_package_built():
         sys.exit("bindings/web/dist is not complete: scripts/web.sh makes it")
     make(folder)
     print(folder / "index.html")

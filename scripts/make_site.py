@@ -111,6 +111,7 @@ def main():
         page = ROOT / "bindings/web/dist/page.html"
         if page.exists():
             shutil.copy(page, folder / "site")
+        if make_gallery.is_package_built():
             make_gallery.make(folder / "site/gallery")
         print(f"{folder}/site/index.html")
     return done.returncode
