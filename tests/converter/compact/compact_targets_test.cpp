@@ -17,7 +17,8 @@ constexpr std::uint32_t kVertices = 24 * 8;
 constexpr std::size_t kKeys = 100;
 constexpr double kBound = 1e-4;
 
-/// A face whose clip drives all targets at once. \param apart  each target moves vertices of its own
+/// A face whose clip drives all targets at once.
+/// \param apart  each target moves vertices of its own
 Scene talking_face(bool apart, float heaviest, Interpolation interpolation = Interpolation::linear) {
     std::mt19937 random(7);
     const auto fraction = [&] { return static_cast<float>(random() % 10001) / 10000.0f; };
