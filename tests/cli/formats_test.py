@@ -140,6 +140,18 @@ class Export(Case):
         rig = json.loads(self.done("rig", "arm.bendy"))
         self.assertEqual((sorted(rig["joints"]), rig["joints"]["LowerArm"]["model"]), (["LowerArm", "UpperArm"], "locked"))
 
+    def test_only_roles_that_are_not_found_again_are_a_loss(self):
+        self.done("convert", "-q", SOURCE / "examples" / "mannequin.glb", "-o", "found.bendy")
+        self.done("edit", "-q", "found.bendy", "--role", "jaw=mixamorig:LeftEye", "-o", "said.bendy")
+        for suffix in (".glb", ".x"):
+            for name, is_lost in (("found", False), ("said", True)):
+                result = self.bendy("export", f"{name}.bendy", "-o", f"{name}{suffix}")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(b"roles of joints left out" in result.stderr, is_lost, (name, suffix))
+                self.done("convert", "-q", f"{name}{suffix}", "-o", f"{name}_again.bendy")
+                roles = [json.loads(self.done("rig", file))["roles"] for file in (f"{name}.bendy", f"{name}_again.bendy")]
+                self.assertEqual(roles[0] != roles[1], is_lost, (name, suffix))
+
     def test_every_kind_of_chunk(self):
         source = SOURCE / "spec" / "examples" / "every_chunk.bendy"
         result = self.bendy("export", source, "-o", "every.glb")

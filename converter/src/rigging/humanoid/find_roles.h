@@ -1,13 +1,40 @@
 #pragma once
 
+#include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>
 
-// What the joints of a scene are in the body: Scene::roles.
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+// Finds which joint is which part of the body: Scene::roles. A converter without BENDY_AUTO_RIG finds none.
 namespace bendy::converter {
 
 /// Finds the roles of a scene that has none: those of its VRM humanoid; otherwise those of a human (find_body), of a
 /// four-legged animal, or of a bird. Leaves them empty if the joints do not have the shape of such a body: a wrong role
 /// would do more harm than none.
+#ifdef BENDY_AUTO_RIG
 void find_roles(Scene& scene);
+#else
+inline void find_roles(Scene& /*scene*/) {}
+#endif
+
+/// Warns if the scene has roles other than find_roles would find: an export to a format without roles loses them.
+/// \param format  "glTF"
+inline void warn_of_lost_roles(Scene& scene, std::string_view format, Report& report) {
+    if (scene.roles.empty()) return;
+    std::vector<RoleRecord> kept = std::exchange(scene.roles, {});
+    find_roles(scene);
+    const bool are_found = std::equal(kept.begin(), kept.end(), scene.roles.begin(), scene.roles.end(),
+                                      [](const RoleRecord& a, const RoleRecord& b) {
+                                          return a.joint == b.joint && a.role == b.role && a.place == b.place;
+                                      });
+    scene.roles = std::move(kept);
+    if (are_found) return;
+    report.warn("roles of joints left out: " + std::string(format) +
+                " has no place for them (`bendy rig` writes them to a rig file)");
+}
 
 }  // namespace bendy::converter

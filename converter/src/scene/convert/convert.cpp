@@ -5,6 +5,7 @@
 #include "optimise/passes/auto_skin.h"
 #include "optimise/passes/bone_order.h"
 #include "optimise/passes/merge_clips.h"
+#include "rigging/humanoid/find_roles.h"
 #include "rigging/rig/attach_rig.h"
 #include "rigging/rig/clips.h"
 #include "rigging/rig/parse_rig.h"
@@ -14,7 +15,6 @@
 #include "scene/source/source_file.h"
 #ifdef BENDY_AUTO_RIG
 #include "rigging/humanoid/auto_rig.h"
-#include "rigging/humanoid/find_roles.h"
 #endif
 
 #include <bendy/converter/build_chunks.h>
@@ -37,7 +37,6 @@ void auto_rig(Scene& /*scene*/, const std::vector<bool>& /*claimed*/, Report& /*
     fail({}, "--auto-rig needs a program that was built with BENDY_AUTO_RIG=ON");
 }
 void add_vrm_chains(Scene& /*scene*/, Report& /*report*/) {}
-void find_roles(Scene& /*scene*/) {}
 #endif
 
 /// Attaches the rig file in the scene's extras. Returns true if it is complete, so that other sources are ignored.

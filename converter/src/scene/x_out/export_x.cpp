@@ -1,5 +1,6 @@
 #include "optimise/passes/mesh_order.h"
 #include "parts.h"
+#include "rigging/humanoid/find_roles.h"
 #include "scene/failure.h"
 #include "scene/source/normalise.h"
 #include "scene/source/source_file.h"
@@ -236,6 +237,7 @@ XAsset export_bytes(Bytes bytes, const std::string& image_stem, Report& report, 
         move_links(*scene, bendy_file, options.output, ReadableFolders::of(bendy_file), report);
     if (!options.vertices.empty()) keep_level(*scene, options.vertices);
     for (std::size_t i = 0; i < scene->meshes.size(); ++i) merge_influences(scene->meshes[i], at("meshes", i), report);
+    warn_of_lost_roles(*scene, "an X-file", report);
     return x_out::write(*scene, image_stem, report);
 }
 
