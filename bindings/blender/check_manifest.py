@@ -28,15 +28,15 @@ def field_faults(manifest):
         if kind is None:
             yield f'{key} is not of the schema'
         elif not isinstance(value, kind):
-            yield f'{key} is no {kind.__name__}'
+            yield f'{key} is not of type {kind.__name__}'
         elif kind is list and not (value and all(isinstance(item, str) for item in value)):
-            yield f'{key} is no list of texts'
+            yield f'{key} is not a list of strings'
 
 
 def sentence_faults(key, text):
     """A tagline or a reason: one line, short, without a full stop."""
     if not isinstance(text, str) or text != ' '.join(text.split()) or not text:
-        yield f'{key} is no line of text'
+        yield f'{key} is not a single line of text'
     elif len(text) > MOST:
         yield f'{key} has {len(text)} characters; {MOST} are allowed'
     elif not (text[-1].isalnum() or text[-1] in ')]}'):

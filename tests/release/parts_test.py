@@ -24,7 +24,7 @@ WRONG = (
     ('"4.2.0"', '"3.4.0"', "before 4.2.0"), ('chains"', 'chains."', "tagline ends"), ('"SPDX:MIT"', '"MIT"', "no SPDX"),
     ('"Rigging"', '"Bones"', "tag Bones"), ("files =", "disks =", "permission disks"), ("Read and", "Read and " + 60 * "x", "characters"),
     ("name =", "nom =", "name is missing"), ('"add-on"', '"theme"', "type is"), ("version = \"0", "version = \"x", "version is"),
-    ("license = [", "license = 1 # [", "license is no list"), ('id = "', "id = ", "Invalid"),
+    ("license = [", "license = 1 # [", "license is not of type list"), ('id = "', "id = ", "Invalid"),
 )
 
 

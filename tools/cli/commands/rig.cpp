@@ -44,8 +44,8 @@ void run(const RigArguments& arguments) {
 
 void add_rig(CLI::App& program) {
     const auto arguments = std::make_shared<RigArguments>();
-    CLI::App* command =
-        program.add_subcommand("rig", "Write a file's joint constraints, IK chains, markers and curves as JSON");
+    CLI::App* command = program.add_subcommand(
+        "rig", "Write the joint constraints, IK chains, roles, markers and curves of a file as JSON");
     command->add_option("FILE", arguments->file, "a bendy file")->required();
     command->add_option("-o,--output", arguments->output, "where to write; standard output if not given");
     command->footer(

@@ -114,8 +114,8 @@ struct Mesh {
     std::vector<float> weights;          ///< one per entry of `bones`; sum 1 per vertex, never negative
     Palette palette;
     std::vector<MorphTarget> targets;  ///< frames come last
-    /// If the vertices are in another order than in the source: the number that each one has there. Empty: they are
-    /// not, or there is no way back. A scene that was imported is in the source's order.
+    /// Each vertex's number in the source, if the order was changed; empty if it was not, or if the source's order is
+    /// not kept. Importing a file restores the source's order.
     std::vector<std::uint32_t> source_numbers;
     /// Set if `positions` lie on a grid. They are then stored on it, and normals as indices into a list that all frames
     /// share. The list holds 256; further normals are replaced by the nearest.

@@ -42,8 +42,8 @@ void merge_vertices(Mesh& mesh, CompactMesh& compact);
 
 /// Orders the triangles of each range of assign_polygons so that neighbours are adjacent, and the vertices by first
 /// use, or by their bones where that saves much of the work of skinning; the mesh's parts become these ranges. Lines
-/// and points keep their order. \param levels  as levels_of returns them; used for a mesh with a collapse sequence, see
-/// places_in_levels
+/// and points keep their order.
+/// \param levels  as levels_of returns them; used for a mesh with a collapse sequence, see places_in_levels
 void order_for_codecs(Mesh& mesh, CompactMesh& compact, std::span<const std::uint32_t> levels);
 
 }  // namespace bendy::converter

@@ -39,7 +39,7 @@ std::vector<Weights> keyed_weights(const Scene& scene, std::uint32_t number) {
     return keys;
 }
 
-/// What the file's own motion asks of the targets.
+/// The weights that the targets have at rest and in the file's clips.
 struct Demand {
     std::vector<Weights> some;  ///< an even choice of the keys, the rest weights, and the heaviest key
     double largest_sum = 1.0;   ///< of the absolute weights of any key, at least 1

@@ -16,8 +16,9 @@ std::vector<std::uint32_t> levels_of(const Scene& scene, std::uint32_t number);
 /// each vertex stays between the same two levels, of which the first holds the vertices that never collapse, and
 /// follows the vertex that it collapses onto. Collapses that change or look at the same triangle keep their order, so
 /// each collapse still finds the triangles around it that it was measured with, also at a count between two levels.
-/// Vertices that collapse together stay together. Levels that collapse fewer than 64 vertices keep their order. \param
-/// rank    by vertex: where it would be best, smallest first; each number once \param levels  as levels_of returns them
+/// Vertices that collapse together stay together. Levels that collapse fewer than 64 vertices keep their order.
+/// \param rank    by vertex: where it would be best, smallest first; each number once
+/// \param levels  as levels_of returns them
 /// \return the new number of each vertex
 std::vector<std::uint32_t> places_in_levels(const Mesh& mesh, std::span<const std::uint32_t> rank,
                                             std::span<const std::uint32_t> levels);

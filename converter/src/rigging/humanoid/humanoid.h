@@ -86,7 +86,7 @@ public:
     /// The word after this one; empty if there is none.
     [[nodiscard]] std::string_view after(std::string_view word) const;
     [[nodiscard]] BodySide side() const;
-    /// Whether a word marks a joint that is no part of the body, such as a control, an end or a twist segment.
+    /// Returns true if a word marks a joint that is not a body part, such as a control, an end or a twist segment.
     [[nodiscard]] bool is_helper() const;
     /// The only word besides sides, prefixes and numbers; empty if there are several.
     [[nodiscard]] std::string_view only_word() const;
