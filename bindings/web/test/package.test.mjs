@@ -26,9 +26,9 @@ test('every export is in the package, and README.md lists it', () => {
 });
 
 test('README.md has no link that leads out of the package, and none that is dead', () => {
-  const links = [...readFileSync(join(web, 'README.md'), 'utf8').matchAll(/\]\(([^)#]+)[^)]*\)/g)].map(([, link]) => link);
-  assert.ok(links.length > 0);
-  assert.deepEqual(links.filter((link) => !packed.includes(link)), []);
+  const dead = (text) => [...text.matchAll(/\]\(([^)#]+)[^)]*\)/g)].map(([, link]) => link).filter((link) => !packed.includes(link));
+  assert.deepEqual(dead('[in it](LICENSE), [outside](../capi/README.md#calls)'), ['../capi/README.md']);
+  assert.deepEqual(dead(readFileSync(join(web, 'README.md'), 'utf8')), []);
 });
 
 test('the package says whose it is, and has its licence and those of others', () => {
