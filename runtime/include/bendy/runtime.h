@@ -22,6 +22,7 @@
 
 #include <bendy/runtime/binding.h>
 #include <bendy/runtime/blend.h>
+#include <bendy/runtime/body_reach.h>
 #include <bendy/runtime/bounds.h>
 #include <bendy/runtime/call_error.h>
 #include <bendy/runtime/constrain.h>

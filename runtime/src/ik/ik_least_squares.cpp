@@ -1,5 +1,5 @@
+#include "damped_step.h"
 #include "ik_problem.h"
-#include "math/nearest_rotation.h"
 #include "math/rotation.h"
 
 #include <algorithm>
@@ -18,31 +18,6 @@ constexpr std::size_t kMost = 6;
 using Unknowns = std::array<double, kMost>;
 using Matrix = std::array<Unknowns, kMost>;
 
-/// Solves (A + damping) y = e for the first `size` rows, by Cholesky decomposition; A is symmetric with no negative
-/// eigenvalue.
-Unknowns solve(Matrix A, const Unknowns& e, std::size_t size, double damping) {
-    for (std::size_t j = 0; j < size; ++j) {
-        double diagonal = A[j][j] + damping;
-        for (std::size_t k = 0; k < j; ++k) diagonal -= A[j][k] * A[j][k];
-        A[j][j] = std::sqrt(std::max(diagonal, 1e-30));
-        for (std::size_t i = j + 1; i < size; ++i) {
-            double sum = A[i][j];
-            for (std::size_t k = 0; k < j; ++k) sum -= A[i][k] * A[j][k];
-            A[i][j] = sum / A[j][j];
-        }
-    }
-    Unknowns y = e;
-    for (std::size_t i = 0; i < size; ++i) {
-        for (std::size_t k = 0; k < i; ++k) y[i] -= A[i][k] * y[k];
-        y[i] /= A[i][i];
-    }
-    for (std::size_t i = size; i-- > 0;) {
-        for (std::size_t k = i + 1; k < size; ++k) y[i] -= A[k][i] * y[k];
-        y[i] /= A[i][i];
-    }
-    return y;
-}
-
 class LeastSquares {
 public:
     explicit LeastSquares(IkProblem& problem)
@@ -51,50 +26,27 @@ public:
           position_(std::sqrt(problem.position_weight)),
           rotation_(problem.has_rotation ? std::sqrt(problem.rotation_weight) : 0.0) {}
 
-    /// Iterates from the current links until the target is reached or it is stuck. Returns the number of iterations.
-    std::uint32_t descend(std::uint32_t most) {
-        double damping = 1e-2;
-        double cost = problem_.cost();
-        for (std::uint32_t iteration = 0; iteration < most; ++iteration) {
-            if (problem_.is_reached()) return iteration;
-            try_step(damping);
-            for (IkLink& link : problem_.links) std::swap(link.local, link.trial);
-            problem_.place();
-            const double now = problem_.cost();
-            constexpr double kStuck = 1e-3;  // relative to the cost
-            const bool is_better = now < cost;
-            const bool is_stuck = cost - now < kStuck * cost;
-            if (is_better) {
-                cost = now;
-                damping = std::max(damping * 0.3, 1e-9);
-            } else {
-                for (IkLink& link : problem_.links) std::swap(link.local, link.trial);
-                problem_.place();
-                damping *= 8.0;
-            }
-            if (is_stuck && (is_better || damping > 10.0)) return iteration + 1;
-        }
-        return most;
+    [[nodiscard]] bool is_reached() const { return problem_.is_reached(); }
+    [[nodiscard]] double cost() const { return problem_.cost(); }
+    void swap() {
+        for (IkLink& link : problem_.links) std::swap(link.local, link.trial);
+        problem_.place();
     }
-
-private:
     /// Computes a step and fills the links' trial with it.
     void try_step(double damping) {
-        for (IkLink& link : problem_.links) {
-            const glm::dmat3 axes = glm::mat3_cast(link.global * link.frame);
-            const glm::dvec3 squares = link.freedom * link.freedom;
-            link.mobility =
-                glm::dmat3(axes[0] * squares.x, axes[1] * squares.y, axes[2] * squares.z) * glm::transpose(axes);
-        }
+        for (IkLink& link : problem_.links) set_mobility(link);
         // In a short chain few joints can make up for a stopped one, and they may be stopped in turn.
         constexpr std::size_t kShort = 4;
         const int rounds = problem_.links.size() <= kShort ? 3 : 2;
         for (int round = 0; round < rounds; ++round) {
-            const Unknowns y = solve(gather(), errors(), size_, damping);
+            Matrix A = gather();
+            Unknowns y = errors();
+            solve_damped(A[0].data(), kMost, size_, damping, y.data());
             if (!apply(y)) return;
         }
     }
 
+private:
     [[nodiscard]] Unknowns errors() const {
         const glm::dvec3 p = position_ * (problem_.target - problem_.tip);
         Unknowns e{p.x, p.y, p.z};
@@ -116,9 +68,7 @@ private:
         for (const IkLink& link : problem_.links) {
             if (link.is_fixed) continue;
             const glm::dvec3 arm = problem_.tip - link.position;
-            // [arm]x by columns: cross(arm, axis); J = -[arm]x.
-            const glm::dmat3 cross_arm(glm::dvec3(0.0, arm.z, -arm.y), glm::dvec3(-arm.z, 0.0, arm.x),
-                                       glm::dvec3(arm.y, -arm.x, 0.0));
+            const glm::dmat3 cross_arm = cross_matrix(arm);
             const glm::dmat3 left = cross_arm * link.mobility;
             pp -= left * cross_arm;  // the transpose of [arm]x is -[arm]x
             if (size_ == 6) {
@@ -151,51 +101,16 @@ private:
             link.trial = link.local;
             if (!link.is_fixed) {
                 const glm::dvec3 arm = problem_.tip - link.position;
-                glm::dvec3 turn = link.mobility * (glm::cross(arm, p) + r);
-                const double size = std::sqrt(glm::dot(turn, turn));
-                constexpr double kLongest = 1.0;  // radians: beyond it the derivative is meaningless
-                if (size > kLongest) turn *= kLongest / size;
-                const glm::dquat rotation = from_vector(turn);
-                link.trial =
-                    softly_legal_local(link, glm::normalize(glm::conjugate(parent) * (rotation * link.global)));
-                if (link.constraint != nullptr && size > 0.0)
-                    is_stopped = take_stopped_direction(link, parent, rotation) || is_stopped;
+                is_stopped = try_rotation(link, parent, link.mobility * (glm::cross(arm, p) + r)) || is_stopped;
             }
             parent = link.global;
         }
         return is_stopped;
     }
 
-    static bool take_stopped_direction(IkLink& link, const glm::dquat& parent, const glm::dquat& rotation) {
-        const glm::dquat done = upper_half(parent * link.trial * glm::conjugate(link.global));
-        // Approximately half the rotation vectors.
-        const glm::dvec3 turn(rotation.x, rotation.y, rotation.z);
-        const glm::dvec3 stopped = turn - glm::dvec3(done.x, done.y, done.z);
-        const double size = glm::dot(stopped, stopped);
-        constexpr double kPart = 0.05;  // fraction of the rotation
-        if (size <= kPart * kPart * glm::dot(turn, turn)) return false;
-        const glm::dvec3 moved = link.mobility * stopped;
-        const double weight = glm::dot(stopped, moved);
-        if (weight <= 1e-12 * size) return false;
-        link.mobility -= glm::outerProduct(moved, moved) / weight;
-        return true;
-    }
-
     IkProblem& problem_;
     std::size_t size_;
     double position_, rotation_;  ///< square roots of the weights
-};
-
-/// Pseudo-random numbers in [-1, 1] from a counter: the same on every machine.
-class Dice {
-public:
-    double next() {
-        state_ = state_ * 6364136223846793005u + 1442695040888963407u;  // Knuth's MMIX generator
-        return static_cast<double>(static_cast<std::int64_t>(state_) >> 11) * 0x1p-52;
-    }
-
-private:
-    std::uint64_t state_ = 1;
 };
 
 /// Three orthonormal axes in base space, in which a chain and its mirror image have the same numbers for mirrored
@@ -265,12 +180,12 @@ std::uint32_t solve_least_squares(IkProblem& problem) {
     const bool is_hopeless = problem.is_out_of_reach || problem.links.size() > kLong;
     const std::uint32_t restarts = is_hopeless ? 0 : problem.options->restarts;
     LeastSquares method(problem);
-    std::uint32_t iterations = method.descend(most);
+    std::uint32_t iterations = descend_damped(method, most);
     if (problem.is_reached()) return iterations;
     double best = problem.cost();
     problem.save();
     const auto descend = [&] {
-        iterations += method.descend(most);
+        iterations += descend_damped(method, most);
         // If two results are nearly equal, the first counts: rounding must not choose between them.
         constexpr double kNearer = 0.99;
         if (!problem.is_reached() && problem.cost() >= kNearer * best) return;
