@@ -44,7 +44,8 @@ public:
         }
         height_ = high - low;
         for (const Effector& one : effectors) {
-            for (std::uint32_t joint = one.joint; joint != root_; joint = model.parents()[joint]) moving_.push_back(joint);
+            for (std::uint32_t joint = one.joint; joint != root_; joint = model.parents()[joint])
+                moving_.push_back(joint);
         }
         std::sort(moving_.begin(), moving_.end());
         moving_.erase(std::unique(moving_.begin(), moving_.end()), moving_.end());
@@ -62,12 +63,14 @@ public:
         for (int k = 0; k < count; ++k) {
             pose_at_random();
             std::vector<EffectorTarget> targets;
-            for (const Effector& one : effectors_) targets.push_back({glm::vec3(posed_.model_space()[one.joint][3]), {}});
+            for (const Effector& one : effectors_)
+                targets.push_back({glm::vec3(posed_.model_space()[one.joint][3]), {}});
             pose_.set_rest();
             (void)pose_.model_space();
             const auto start = std::chrono::steady_clock::now();
             const auto result = reach(pose_, *body, targets);
-            times.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
+            times.push_back(
+                std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
             if (!result) std::exit(1);
             reached += result->is_reached ? 1 : 0;
             iterations += result->iterations;
@@ -81,25 +84,29 @@ public:
                 const Constraint* constraint = model_.ik_constraint(joint);
                 if (constraint == nullptr) continue;
                 const Constraint& one = *constraint;
-                const auto R = to_constraint_space(one, model_.joints()[one.joint].rest.rotation, pose_.local(one.joint).rotation);
+                const auto R =
+                    to_constraint_space(one, model_.joints()[one.joint].rest.rotation, pose_.local(one.joint).rotation);
                 worst_violation = std::max(worst_violation, violation(one, R));
             }
         }
         std::sort(times.begin(), times.end());
         double sum = 0.0;
         for (const double t : times) sum += t;
-        std::printf("| %.1f | %.1f | %.1e | %.1f | %.0f / %.0f / %.0f |\n", 100.0 * within / count, 100.0 * reached / count,
-                    worst_violation, iterations / count, sum / count, times[times.size() / 2], times[times.size() * 99 / 100]);
+        std::printf("| %.1f | %.1f | %.1e | %.1f | %.0f / %.0f / %.0f |\n", 100.0 * within / count,
+                    100.0 * reached / count, worst_violation, iterations / count, sum / count, times[times.size() / 2],
+                    times[times.size() * 99 / 100]);
     }
 
 private:
     void pose_at_random() {
         std::uniform_real_distribution<double> angle(-1.0, 1.0);
         posed_.set_rest();
-        for (const std::uint32_t joint : moving_) turn(joint, glm::dvec3(angle(random_), angle(random_), angle(random_)));
+        for (const std::uint32_t joint : moving_)
+            turn(joint, glm::dvec3(angle(random_), angle(random_), angle(random_)));
         turn(root_, glm::dvec3(angle(random_), angle(random_), angle(random_)) * (0.5 * 0.6 / std::sqrt(3.0)));
         JointTransform local = posed_.local(root_);
-        const glm::dmat3 space(posed_.model_space()[model_.parents()[root_] == kNone ? root_ : model_.parents()[root_]]);
+        const glm::dmat3 space(
+            posed_.model_space()[model_.parents()[root_] == kNone ? root_ : model_.parents()[root_]]);
         const glm::dvec3 shift = 0.1 * height_ * glm::dvec3(angle(random_), angle(random_), angle(random_));
         local.translation += glm::vec3(model_.parents()[root_] == kNone ? shift : glm::inverse(space) * shift);
         posed_.set_local(root_, local);
@@ -130,7 +137,9 @@ private:
 
 int main(int count, char** arguments) {
     int targets = 10000;
-    std::printf("| human | %% within 1 mm | %% reached | violation, rad | iterations | us, mean / median / 99 %% |\n|---|---|---|---|---|---|\n");
+    std::printf(
+        "| human | %% within 1 mm | %% reached | violation, rad | iterations | us, mean / median / 99 %% "
+        "|\n|---|---|---|---|---|---|\n");
     for (int k = 1; k < count; ++k) {
         if (const int number = std::atoi(arguments[k]); number > 0) {
             targets = number;

@@ -73,7 +73,7 @@ public:
     Result<BodyReached, CallError> run(std::span<const EffectorTarget> targets) {
         if (!read_targets(targets) || !gather()) return CallError::not_finite;
         std::uint32_t iterations = 0;
-        constexpr int kCorrections = 4;  // of bones that change length as they turn
+        constexpr int kCorrections = 16;  // of bones that change length as they turn
         for (int k = 0; k < kCorrections; ++k) {
             iterations += solve();
             const bool seems_reached = is_reached();
@@ -99,7 +99,7 @@ public:
     }
     void try_step(double damping) {
         for (BodyLink& link : links_) set_mobility(link);
-        root_mobility_ = glm::dvec3(0.0);
+        trial_shift_ = shift_;
         // Moving the whole body is the second choice.
         constexpr double kRootFreedom = 0.25;
         for (int axis = 0; axis < 3; ++axis) root_mobility_[axis] = most_shift_[axis] > 0.0 ? kRootFreedom : 0.0;
@@ -162,14 +162,12 @@ private:
 
     void gather_link(BodyLink& link) const {
         const Joint& joint = plan_.model.joints()[link.joint];
-        const std::uint32_t number =
-            plan_.options.obey_constraints ? state_.data->ik_constraint(link.joint) : kNone;
+        const std::uint32_t number = plan_.options.obey_constraints ? state_.data->ik_constraint(link.joint) : kNone;
         link.constraint = number == kNone ? nullptr : &state_.data->constraints[number];
         link.frame = link.constraint == nullptr ? glm::dquat(1.0, 0.0, 0.0, 0.0) : link.constraint->frame;
         link.rest_frame = link.constraint == nullptr ? glm::normalize(glm::dquat(joint.rest.rotation))
                                                      : state_.data->rest_frames[number];
-        link.freedom =
-            link.constraint == nullptr ? glm::dvec3(1.0) : glm::dvec3(1.0) - link.constraint->stiffness;
+        link.freedom = link.constraint == nullptr ? glm::dvec3(1.0) : glm::dvec3(1.0) - link.constraint->stiffness;
         const bool is_locked = link.constraint != nullptr && link.constraint->model() == ConstraintModel::locked;
         const bool is_fixed_root = link.parent == kNone && !(plan_.options.root_turn > 0.0f);
         link.is_fixed = is_locked || is_fixed_root || link.freedom == glm::dvec3(0.0);
@@ -215,7 +213,9 @@ private:
         for (BodyTip& tip : tips_) tip.place = links_[tip.link].position + links_[tip.link].global * tip.offset;
     }
 
-    [[nodiscard]] double angle_left(const BodyTip& tip) const { return angle_between(links_[tip.link].global, tip.rotation); }
+    [[nodiscard]] double angle_left(const BodyTip& tip) const {
+        return angle_between(links_[tip.link].global, tip.rotation);
+    }
 
     [[nodiscard]] bool is_there(const BodyTip& tip) const {
         const glm::dvec3 left = tip.target - tip.place;
@@ -253,13 +253,14 @@ private:
         place();
     }
 
-    /// Sets the links that move only effectors that are short of their targets to other legal rotations, and in every second attempt all
-    /// that move one of them.
+    /// Sets the links that move only effectors that are short of their targets to other legal rotations, and in every
+    /// second attempt all that move one of them.
     void begin_anew(std::uint32_t attempt, Dice& dice) {
         std::uint32_t short_of = 0;
         for (std::size_t k = 0; k < tips_.size(); ++k) short_of |= is_there(tips_[k]) ? 0u : 1u << k;
         for (BodyLink& link : links_) {
-            const bool is_chosen = attempt % 2 == 0 ? (link.effectors & ~short_of) == 0 : (link.effectors & short_of) != 0;
+            const bool is_chosen =
+                attempt % 2 == 0 ? (link.effectors & ~short_of) == 0 : (link.effectors & short_of) != 0;
             if (!is_chosen || link.is_fixed || link.parent == kNone) continue;
             glm::dvec3 turn(0.0);  // about the frame's axes
             // One at a time: the evaluation order of arguments is up to the compiler.
@@ -324,13 +325,21 @@ private:
         }
     }
 
+    /// Returns the way to the target, or part of it: a derivative says nothing about a point far away.
+    static glm::dvec3 step_of(const BodyTip& tip) {
+        constexpr double kLongest = 0.5;
+        const glm::dvec3 way = tip.target - tip.place;
+        const double length = glm::length(way);
+        return length > kLongest ? way * (kLongest / length) : way;
+    }
+
     void gather_errors() {
         const auto set = [&](std::size_t row, double weight, const glm::dvec3& error) {
             for (int axis = 0; axis < 3; ++axis)
                 plan_.y[row + static_cast<std::size_t>(axis)] = std::sqrt(weight) * error[axis];
         };
         for (const BodyTip& tip : tips_) {
-            if (tip.weight > 0.0) set(tip.row, tip.weight, tip.target - tip.place);
+            if (tip.weight > 0.0) set(tip.row, tip.weight, step_of(tip));
             if (tip.rotation_weight > 0.0) {
                 const glm::dquat turn = tip.rotation * glm::conjugate(links_[tip.link].global);
                 set(tip.rotation_row, tip.rotation_weight, to_vector(turn));
@@ -375,9 +384,11 @@ private:
         }
     }
 
+    /// An axis that is at the end of its range stays there for the rest of the step.
     bool apply_shift(const glm::dvec3& force) {
         bool is_stopped = false;
         for (int axis = 0; axis < 3; ++axis) {
+            if (root_mobility_[axis] == 0.0) continue;
             const double wanted = shift_[axis] + root_mobility_[axis] * force[axis];
             trial_shift_[axis] = std::clamp(wanted, -most_shift_[axis], most_shift_[axis]);
             if (trial_shift_[axis] == wanted) continue;
@@ -429,9 +440,9 @@ private:
     std::span<BodyLink> links_;
     std::span<BodyTip> tips_;
     std::size_t stride_ = plan_.y.size();
-    std::size_t rows_ = 0;  ///< unknowns of this call
-    glm::dquat base_{1.0, 0.0, 0.0, 0.0};   ///< orientation of the root's parent
-    glm::dquat start_{1.0, 0.0, 0.0, 0.0};  ///< of the root, relative to its parent
+    std::size_t rows_ = 0;                             ///< unknowns of this call
+    glm::dquat base_{1.0, 0.0, 0.0, 0.0};              ///< orientation of the root's parent
+    glm::dquat start_{1.0, 0.0, 0.0, 0.0};             ///< of the root, relative to its parent
     glm::dvec3 origin_{0.0}, start_translation_{0.0};  ///< of the root
     glm::dvec3 most_shift_{0.0}, shift_{0.0}, trial_shift_{0.0}, saved_shift_{0.0}, root_mobility_{0.0};
     double size_ = 1.0;  ///< metres
@@ -503,9 +514,8 @@ Result<BodyReach, CallError> BodyReachPlan::make(const Model& model, std::span<c
     if (!is_finite(options.root_shift) || !std::isfinite(options.root_turn)) return CallError::not_finite;
     const std::uint32_t root = options.root == kNone ? shared_root(parents, effectors) : options.root;
     const bool is_above = root < parents.size() &&
-                          std::all_of(effectors.begin(), effectors.end(), [&](const Effector& one) {
-                              return is_at_or_above(parents, root, one.joint);
-                          });
+                          std::all_of(effectors.begin(), effectors.end(),
+                                      [&](const Effector& one) { return is_at_or_above(parents, root, one.joint); });
     if (!is_above) return CallError::out_of_range;
     auto plan = std::make_unique<BodyReachPlan>(model);
     plan->options = options;

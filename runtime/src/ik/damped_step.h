@@ -14,8 +14,8 @@
 namespace bendy {
 
 /// Solves (A + damping) y = e in place, by Cholesky decomposition: `y` holds e first.
-/// \param A     symmetric, with no negative eigenvalue, by rows of `stride` numbers; only its lower triangle is read, and is overwritten
-/// \param size  rows, at most `stride`
+/// \param A     symmetric, with no negative eigenvalue, by rows of `stride` numbers; only its lower triangle is read,
+/// and is overwritten \param size  rows, at most `stride`
 void solve_damped(double* A, std::size_t stride, std::size_t size, double damping, double* y);
 
 /// The longest step of a joint in radians: beyond it the derivative is meaningless.
@@ -23,9 +23,9 @@ inline constexpr double kLongestStep = 1.0;
 
 /// Sets the link's mobility from its freedom: from a wanted rotation vector to the one that it makes.
 void set_mobility(IkLink& link);
-/// Sets the link's trial from a step by a rotation, as far as it is legal. Returns true if a constraint stopped it in a direction in
-/// which it was free so far: that direction is then removed from its mobility.
-/// \param parent  orientation of the link above
+/// Sets the link's trial from a step by a rotation, as far as it is legal. Returns true if a constraint stopped it in a
+/// direction in which it was free so far: that direction is then removed from its mobility. \param parent  orientation
+/// of the link above
 bool try_rotation(IkLink& link, const glm::dquat& parent, const glm::dvec3& turn);
 /// The second half of that, for a link whose trial has been limited otherwise.
 bool take_stopped_direction(IkLink& link, const glm::dquat& parent, const glm::dquat& rotation);
@@ -34,9 +34,9 @@ inline glm::dmat3 cross_matrix(const glm::dvec3& arm) {
     return {glm::dvec3(0.0, arm.z, -arm.y), glm::dvec3(-arm.z, 0.0, arm.x), glm::dvec3(arm.y, -arm.x, 0.0)};
 }
 
-/// Iterates from the problem's current state until its targets are reached or it is stuck: Levenberg-Marquardt. Returns the number of
-/// iterations.
-/// \param problem  has is_reached(), cost(), try_step(damping), which leaves a step in the trial state, and swap(), which makes the
+/// Iterates from the problem's current state until its targets are reached or it is stuck: Levenberg-Marquardt. Returns
+/// the number of iterations. \param problem  has is_reached(), cost(), try_step(damping), which leaves a step in the
+/// trial state, and swap(), which makes the
 ///                 trial state the current one and the current one the trial state
 template <class Problem>
 std::uint32_t descend_damped(Problem& problem, std::uint32_t most) {

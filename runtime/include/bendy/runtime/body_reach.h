@@ -34,8 +34,8 @@ struct Effector {
 struct EffectorTarget {
     glm::vec3 position{0.0f};           ///< metres
     std::optional<glm::quat> rotation;  ///< orientation of the effector's joint
-    float weight = 1.0f;                ///< 0 to 1, beside the other effectors' where not all can be reached; 0: anywhere
-    float rotation_weight = 1.0f;       ///< the same for the rotation
+    float weight = 1.0f;           ///< 0 to 1, beside the other effectors' where not all can be reached; 0: anywhere
+    float rotation_weight = 1.0f;  ///< the same for the rotation
 };
 
 struct BodyReachOptions {
@@ -43,7 +43,7 @@ struct BodyReachOptions {
     std::uint32_t root = kNone;
     /// Metres along the axes of model space, each way: how far the root may move from its place in the pose.
     glm::vec3 root_shift{0.0f};
-    float root_turn = 0.0f;       ///< radians: how far the root may turn from its orientation in the pose
+    float root_turn = 0.0f;         ///< radians: how far the root may turn from its orientation in the pose
     std::uint32_t iterations = 60;  ///< maximum for each starting point
     std::uint32_t restarts = 8;     ///< number of other starting points to try when it is stuck
     float tolerance = 0.0f;  ///< metres, default 0.0001 of the longest way from the root to an effector; for rotations
@@ -53,7 +53,7 @@ struct BodyReachOptions {
 
 /// Describes the solution.
 struct BodyReached {
-    bool is_reached = false;  ///< every effector is at its target, within the tolerance
+    bool is_reached = false;       ///< every effector is at its target, within the tolerance
     std::uint32_t farthest = 0;    ///< the effector that is farthest from its target; of those with a weight
     float distance = 0.0f;         ///< metres, of that one
     float angle = 0.0f;            ///< radians: largest between an effector's orientation and its target's
@@ -66,8 +66,8 @@ class BodyReach {
 public:
     static constexpr std::size_t kMostEffectors = 32;
 
-    /// Errors: missing, if there is no effector; wrong_size, if there are more than kMostEffectors; out_of_range, if the
-    /// model has no such joint, or the root is not at or above each effector; not_finite.
+    /// Errors: missing, if there is no effector; wrong_size, if there are more than kMostEffectors; out_of_range, if
+    /// the model has no such joint, or the root is not at or above each effector; not_finite.
     static Result<BodyReach, CallError> make(const Model& model, std::span<const Effector> effectors,
                                              const BodyReachOptions& options = {});
     BodyReach(const BodyReach& other);
@@ -93,8 +93,9 @@ private:
 /// near it; it is first brought inside the constraints. IK chains play no part.
 ///
 /// A target that is not reached is a result, not an error. Errors: other_model; wrong_size, unless there is one target
-/// for each effector; not_finite, if a number in the pose or a target is not, or a rotation has no unit length. The pose
-/// is then unchanged.
-[[nodiscard]] Result<BodyReached, CallError> reach(Pose& pose, BodyReach& body, std::span<const EffectorTarget> targets);
+/// for each effector; not_finite, if a number in the pose or a target is not, or a rotation has no unit length. The
+/// pose is then unchanged.
+[[nodiscard]] Result<BodyReached, CallError> reach(Pose& pose, BodyReach& body,
+                                                   std::span<const EffectorTarget> targets);
 
 }  // namespace bendy
