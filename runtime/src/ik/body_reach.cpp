@@ -21,9 +21,18 @@ namespace bendy {
 struct BodyLink : IkLink {
     std::uint32_t parent = kNone;  ///< among the links
     std::uint32_t effectors = 0;   ///< a bit for each that it moves
-    glm::dvec3 offset{0.0};        ///< from the parent, in its orientation
-    glm::dvec3 force{0.0};         ///< of a step: the sum over its effectors
-    glm::dvec3 torque{0.0};        ///< about model space's origin
+    std::size_t group = 0;
+    glm::dvec3 offset{0.0};  ///< from the parent, in its orientation
+    glm::dvec3 force{0.0};   ///< of a step: the sum over its effectors
+    glm::dvec3 torque{0.0};  ///< about model space's origin
+};
+
+/// Links that move the same effectors, and sums over them, with positions p relative to the root's.
+struct BodyGroup {
+    std::uint32_t effectors = 0;
+    glm::dmat3 turns{0.0};   ///< of mobility
+    glm::dmat3 first{0.0};   ///< of mobility [p]x
+    glm::dmat3 second{0.0};  ///< of [p]x mobility [p]x
 };
 
 /// An effector, in the same units.
@@ -51,6 +60,7 @@ struct BodyReachPlan {
     BodyReachOptions options;
     std::vector<BodyLink> links;  ///< parents come first
     std::vector<BodyTip> tips;
+    std::vector<BodyGroup> groups;
     std::vector<double> A, y;  ///< work memory: a row for each unknown, of six for each effector
 };
 
@@ -58,6 +68,16 @@ namespace {
 
 double weight_of(float weight) {
     return weight > 0.0f ? std::min(double{weight}, 1.0) : 0.0;
+}
+
+/// Returns m [v]x: see cross_matrix.
+glm::dmat3 times_cross(const glm::dmat3& m, const glm::dvec3& v) {
+    return {v.z * m[1] - v.y * m[2], v.x * m[2] - v.z * m[0], v.y * m[0] - v.x * m[1]};
+}
+
+/// Returns [v]x m.
+glm::dmat3 cross_times(const glm::dvec3& v, const glm::dmat3& m) {
+    return {glm::cross(v, m[0]), glm::cross(v, m[1]), glm::cross(v, m[2])};
 }
 
 double square(double x) {
@@ -98,7 +118,13 @@ public:
         return sum;
     }
     void try_step(double damping) {
-        for (BodyLink& link : links_) set_mobility(link);
+        for (BodyLink& link : links_) {
+            if (link.freedom == glm::dvec3(1.0)) {
+                link.mobility = glm::dmat3(1.0);
+            } else {
+                set_mobility(link);
+            }
+        }
         trial_shift_ = shift_;
         // Moving the whole body is the second choice.
         constexpr double kRootFreedom = 0.25;
@@ -290,37 +316,46 @@ private:
                     add(tip.row, other->row, std::sqrt(tip.weight * other->weight), shifts);
             }
         }
+        for (BodyGroup& group : plan_.groups) group.turns = group.first = group.second = glm::dmat3(0.0);
         for (const BodyLink& link : links_) {
-            if (!link.is_fixed) add_link(link);
+            if (link.is_fixed) continue;
+            BodyGroup& group = plan_.groups[link.group];
+            const glm::dvec3 arm = link.position - links_[0].position;
+            const glm::dmat3 moved = times_cross(link.mobility, arm);
+            group.turns += link.mobility;
+            group.first += moved;
+            group.second += cross_times(arm, moved);
+        }
+        for (const BodyGroup& group : plan_.groups) {
+            for (std::uint32_t bits = group.effectors; bits != 0; bits &= bits - 1) add_effector(group, bits);
         }
     }
 
-    void add_link(const BodyLink& link) {
-        const auto next = [](std::uint32_t& bits) {
-            const auto lowest = static_cast<std::size_t>(std::countr_zero(bits));
-            bits &= bits - 1;
-            return lowest;
-        };
-        for (std::uint32_t bits = link.effectors; bits != 0;) {
-            const std::size_t number = next(bits);
-            const BodyTip& tip = tips_[number];
-            const glm::dmat3 left = cross_matrix(tip.place - link.position) * link.mobility;
-            for (std::uint32_t others = link.effectors; others != 0;) {
-                const std::size_t other_number = next(others);
-                if (other_number > number) break;
-                const BodyTip& other = tips_[other_number];
-                const glm::dmat3 arm = cross_matrix(other.place - link.position);
-                const auto weight = [](double a, double b) { return std::sqrt(a * b); };
-                if (tip.weight > 0.0 && other.weight > 0.0)
-                    add(tip.row, other.row, -weight(tip.weight, other.weight), left * arm);
-                if (tip.rotation_weight > 0.0 && other.weight > 0.0)
-                    add(tip.rotation_row, other.row, weight(tip.rotation_weight, other.weight), link.mobility * arm);
-                if (tip.rotation_weight > 0.0 && other.rotation_weight > 0.0) {
-                    add(tip.rotation_row, other.rotation_row, weight(tip.rotation_weight, other.rotation_weight),
-                        link.mobility);
-                }
-                if (number != other_number && tip.weight > 0.0 && other.rotation_weight > 0.0)
-                    add(tip.row, other.rotation_row, -weight(tip.weight, other.rotation_weight), left);
+    /// Adds the blocks of the lowest effector of `bits` and those from it on: with arm a = tip - p and J = -[a]x, J
+    /// mobility J^T is
+    /// -[a]x mobility [b]x, whose sum over p follows from the group's.
+    void add_effector(const BodyGroup& group, std::uint32_t bits) {
+        const auto number = [](std::uint32_t of) { return static_cast<std::size_t>(std::countr_zero(of)); };
+        const auto weight = [](double a, double b) { return std::sqrt(a * b); };
+        const BodyTip& other = tips_[number(bits)];
+        const glm::dvec3 arm = other.place - links_[0].position;
+        const glm::dmat3 first = glm::transpose(group.first);
+        const glm::dmat3 turned = times_cross(group.turns, arm) - group.first;
+        const glm::dmat3 rest = times_cross(first, arm) + group.second;
+        for (; bits != 0; bits &= bits - 1) {
+            const BodyTip& tip = tips_[number(bits)];
+            const glm::dvec3 tip_arm = tip.place - links_[0].position;
+            if (tip.weight > 0.0 && other.weight > 0.0)
+                add(tip.row, other.row, -weight(tip.weight, other.weight), cross_times(tip_arm, turned) + rest);
+            if (tip.rotation_weight > 0.0 && other.weight > 0.0)
+                add(tip.rotation_row, other.row, weight(tip.rotation_weight, other.weight), turned);
+            if (tip.rotation_weight > 0.0 && other.rotation_weight > 0.0) {
+                add(tip.rotation_row, other.rotation_row, weight(tip.rotation_weight, other.rotation_weight),
+                    group.turns);
+            }
+            if (&tip != &other && tip.weight > 0.0 && other.rotation_weight > 0.0) {
+                add(tip.row, other.rotation_row, -weight(tip.weight, other.rotation_weight),
+                    cross_times(tip_arm, group.turns) + first);
             }
         }
     }
@@ -468,6 +503,10 @@ void BodyReachPlan::add_links(std::uint32_t root, std::span<const Effector> effe
         link.joint = joint;
         link.parent = joint == root ? kNone : numbers[parents[joint]];
         link.effectors = moves[joint];
+        const auto group = std::find_if(groups.begin(), groups.end(),
+                                        [&](const BodyGroup& one) { return one.effectors == link.effectors; });
+        link.group = static_cast<std::size_t>(group - groups.begin());
+        if (group == groups.end()) groups.push_back({link.effectors});
         links.push_back(link);
     }
     for (const Effector& effector : effectors) {
