@@ -18,7 +18,7 @@
 // (convert --auto-rig). Reachable targets are made by posing the human at random inside its limits: each joint by up to
 // 1 radian about each axis, the hips up to half of the range in which the solver may move and turn them. Every solve
 // starts at rest. Prints how many sets of five targets are reached within 1 mm times the human's height in units of 1.7
-// m, violated constraints, and microseconds. One core.
+// m, violated constraints, and microseconds, the least of three tries each. One core.
 namespace {
 
 using namespace bendy;
@@ -65,15 +65,21 @@ public:
             std::vector<EffectorTarget> targets;
             for (const Effector& one : effectors_)
                 targets.push_back({glm::vec3(posed_.model_space()[one.joint][3]), {}});
-            pose_.set_rest();
-            (void)pose_.model_space();
-            const auto start = std::chrono::steady_clock::now();
-            const auto result = reach(pose_, *body, targets);
-            times.push_back(
-                std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
-            if (!result) std::exit(1);
-            reached += result->is_reached ? 1 : 0;
-            iterations += result->iterations;
+            double least = 1e9;  // of several tries: other programs interrupt
+            BodyReached result;
+            for (int again = 0; again < 3; ++again) {
+                pose_.set_rest();
+                (void)pose_.model_space();
+                const auto start = std::chrono::steady_clock::now();
+                const auto tried = reach(pose_, *body, targets);
+                const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
+                if (!tried) std::exit(1);
+                least = std::min(least, took.count());
+                result = *tried;
+            }
+            times.push_back(least);
+            reached += result.is_reached ? 1 : 0;
+            iterations += result.iterations;
             double farthest = 0.0;
             for (std::size_t e = 0; e < effectors_.size(); ++e) {
                 const glm::dvec3 at(pose_.model_space()[effectors_[e].joint][3]);
