@@ -54,6 +54,7 @@ ROOMS = {
         "scene/x": {"scene", "scene/source", "rigging/rig"},
         "scene/x_out": {"scene", "scene/source", "rigging/humanoid", "optimise/passes", "scene/x"},
         "scene/md2": {"scene", "scene/source"},
+        "scene/bvh": {"scene", "scene/source"},
         "scene/convert": {"scene", "scene/source", "rigging/rig", "rigging/humanoid", "optimise/passes", "optimise/collapse", "optimise/compact"},
     },
 }

@@ -94,6 +94,7 @@ converter::ConvertOptions options_of(const ConvertArguments& arguments) {
     if (!arguments.rig.empty()) options.rig = arguments.rig;
     options.texture = arguments.texture;
     options.ticks_per_second = arguments.ticks_per_second;
+    options.unit = arguments.unit;
     options.merge_clips = arguments.merge_clips;
 #ifdef BENDY_AUTO_RIG
     options.auto_rig = arguments.auto_rig;

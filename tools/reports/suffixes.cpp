@@ -23,6 +23,7 @@ constexpr std::array kMeanings{
     Meaning{".webp", "WebP", "render"},
     // Formats that bendy does not write: for models it suggests glTF instead, for pictures PNG.
     Meaning{".vrm", "VRM", {}},
+    Meaning{".vrma", "a VRM animation", {}},
     Meaning{".md2", "a Quake II model", {}},
     Meaning{".md3", "a Quake III model", {}},
     Meaning{".md5mesh", "a Doom 3 model", {}},

@@ -223,7 +223,7 @@ void add_options(CLI::App& command, ConvertArguments& arguments) {
         for (const std::string& other : words_of(option.excludes))
             added.at(std::string(option.name))->excludes(added.at(other));
     });
-    added.at("ticks_per_second")->check(CLI::PositiveNumber);
+    for (const char* name : {"ticks_per_second", "unit"}) added.at(name)->check(CLI::PositiveNumber);
     added.at("max_error")->check([](const std::string& text) {
         const auto bound = converter::parse_error_bound(text);
         return bound ? std::string() : bound.error();

@@ -22,6 +22,8 @@ struct ConvertOptions {
     double ticks_per_second = 0.0;
     /// Quake II models only, see Md2Options; empty: the file's own skin. An error for other sources.
     std::filesystem::path texture;
+    /// Biovision files only: metres, see BvhOptions; 0: a centimetre. An error for other sources.
+    double unit = 0.0;
     /// Merge clips that move different properties, see docs/convert.md.
     bool merge_clips = false;
     /// A rig file (spec/rig.md): its constraints and chains override those of the source.
@@ -52,8 +54,8 @@ struct ConvertOptions {
     unsigned threads = 1;
 };
 
-/// Converts a glTF file, a bendy file, an X-file or a Quake II model (recognised by content) to the bytes of a bendy
-/// file. The result passes bendy::validate; `report` lists what it does not hold and the files that were read. Throws
+/// Converts a glTF file, a bendy file, an X-file, a Quake II model or a Biovision file (recognised by content) to the
+/// bytes of a bendy file. The result passes bendy::validate; `report` lists what it does not hold and the files that were read. Throws
 /// nothing. Keeps no state between calls: threads may convert concurrently.
 Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options,
                                                     Report& report);

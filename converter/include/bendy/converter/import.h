@@ -82,6 +82,19 @@ Result<Scene, ImportError> import_md2(const std::filesystem::path& file, const M
 Result<Scene, ImportError> import_md2(std::span<const std::byte> bytes, const std::filesystem::path& file,
                                       const Md2Options& options, Report& report);
 
+struct BvhOptions {
+    /// Length of the file's unit, metres, above 0. 0: a centimetre, with a note in the report: files do not say it.
+    double unit = 0.0;
+};
+
+/// Reads a Biovision file (BVH) and fills a Scene: joints, also the ends without motion, at rest at their offsets, and
+/// a clip with the file's name and a key for each frame, if there are any. A joint's position channels replace its
+/// offset; its rotations apply in the order of its channels. Y is up. Errors give the line. Throws nothing; every
+/// number in the result is finite and every index in range.
+/// \param file  names the clip
+Result<Scene, ImportError> import_bvh(std::string_view text, const std::filesystem::path& file,
+                                      const BvhOptions& options, Report& report);
+
 /// True if the file can be read and has a bendy file's signature, whatever its name.
 bool is_bendy_file(const std::filesystem::path& file);
 

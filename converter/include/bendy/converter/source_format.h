@@ -11,7 +11,7 @@
 namespace bendy::converter {
 
 /// The formats that `convert` reads.
-enum class SourceFormat : std::uint8_t { gltf, bendy, x, md2 };
+enum class SourceFormat : std::uint8_t { gltf, bendy, x, md2, bvh };
 
 /// Recognises the format by the first bytes, else by the name. Unrecognised files count as glTF, whose importer reports
 /// the error.

@@ -126,6 +126,7 @@ Result<Scene, ImportError> import_source(std::optional<Buffer> source, const std
         return ImportError{{}, "ticks per second can be set for X-files only"};
     if (!importer.takes_texture && !options.texture.empty())
         return ImportError{{}, "a texture can be set for Quake II models only"};
+    if (!importer.takes_unit && options.unit != 0.0) return ImportError{{}, "a unit can be set for BVH files only"};
     auto scene = importer.import(*std::move(source), named, options, report);
     if (!scene) return scene;
     // If images are embedded, the remaining links are files that could not be read: they keep the source's URI.

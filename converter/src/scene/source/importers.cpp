@@ -38,16 +38,50 @@ Imported from_md2(Buffer bytes, const Path& file, const ConvertOptions& options,
 }
 #endif
 
+#ifdef BENDY_BVH
+Imported from_bvh(Buffer bytes, const Path& file, const ConvertOptions& options, Report& report) {
+    return import_bvh(as_text(bytes), file, {options.unit}, report);
+}
+#endif
+
 constexpr std::array kImporters{
-    Importer{SourceFormat::gltf, "a glTF file", "", {".gltf"}, true, false, false, from_gltf},
-    Importer{SourceFormat::gltf, "a glTF binary file", "glTF", {".glb", ".vrm"}, true, false, false, from_gltf},
+    Importer{
+        .format = SourceFormat::gltf, .name = "a glTF file", .signature = {}, .suffixes = {".gltf"}, .takes_scene = true, .import = from_gltf},
+    Importer{.format = SourceFormat::gltf,
+             .name = "a glTF binary file",
+             .signature = "glTF",
+             .suffixes = {".glb", ".vrm", ".vrma"},
+             .takes_scene = true,
+             .import = from_gltf},
 #ifdef BENDY_X_FILES
-    Importer{SourceFormat::x, "a DirectX X-file", "xof ", {".x"}, false, true, false, from_x},
+    Importer{.format = SourceFormat::x,
+             .name = "a DirectX X-file",
+             .signature = "xof ",
+             .suffixes = {".x"},
+             .takes_ticks = true,
+             .import = from_x},
 #endif
 #ifdef BENDY_MD2
-    Importer{SourceFormat::md2, "a Quake II model", "IDP2", {".md2"}, false, false, true, from_md2},
+    Importer{.format = SourceFormat::md2,
+             .name = "a Quake II model",
+             .signature = "IDP2",
+             .suffixes = {".md2"},
+             .takes_texture = true,
+             .import = from_md2},
 #endif
-    Importer{SourceFormat::bendy, "a bendy file", "HEAD", {".bendy"}, false, false, false, from_bendy},
+#ifdef BENDY_BVH
+    Importer{.format = SourceFormat::bvh,
+             .name = "a BVH file",
+             .signature = "HIERARCHY",
+             .suffixes = {".bvh"},
+             .takes_unit = true,
+             .import = from_bvh},
+#endif
+    Importer{.format = SourceFormat::bendy,
+             .name = "a bendy file",
+             .signature = "HEAD",
+             .suffixes = {".bendy"},
+             .import = from_bendy},
 };
 
 }  // namespace
@@ -81,6 +115,7 @@ constexpr std::string_view kCollada =
 constexpr std::string_view kOtherTool = "export it as glTF 2.0 from the program that made it";
 constexpr std::string_view kBuildWithX = "build it with BENDY_X_FILES=ON";
 constexpr std::string_view kBuildWithMd2 = "build it with BENDY_MD2=ON";
+constexpr std::string_view kBuildWithBvh = "build it with BENDY_BVH=ON";
 constexpr std::string_view kArchive = "unpack it, and convert the model that is in it";
 
 constexpr FileKind kFbxFile{"an FBX file", std::nullopt, kFbx};
@@ -113,7 +148,7 @@ constexpr std::array kBeginnings{
     Recognised{"IDP3", {"a Quake III model (MD3)", std::nullopt, kBlender}},
     Recognised{"MD5Version", {"a Doom 3 file (MD5)", std::nullopt, kBlender}},
     Recognised{"IDST", {"a Half-Life model (MDL)", std::nullopt, kBlender}},
-    Recognised{"HIERARCHY", {"a BVH file", std::nullopt, kBlender}},
+    Recognised{"HIERARCHY", {"a BVH file", std::nullopt, kBuildWithBvh}},
     Recognised{"ply\n", kPlyFile},
     Recognised{"ply\r", kPlyFile},
 };

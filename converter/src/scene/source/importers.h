@@ -20,10 +20,11 @@ struct Importer {
     SourceFormat format;
     std::string_view name;                          ///< with its article
     std::string_view signature;                     ///< the first bytes of such a file; empty: text without a signature
-    std::array<std::string_view, 2> suffixes = {};  ///< of file names, lower case; unused entries are empty
+    std::array<std::string_view, 3> suffixes = {};  ///< of file names, lower case; unused entries are empty
     bool takes_scene = false;                       ///< has several scenes to choose from
     bool takes_ticks = false;                       ///< measures time in ticks
     bool takes_texture = false;                     ///< has one skin, which may be in any file
+    bool takes_unit = false;                        ///< does not say how long its unit is
     /// \param file  name of the bytes; other files are looked for in its folder
     Result<Scene, ImportError> (*import)(std::vector<std::byte> bytes, const std::filesystem::path& file,
                                          const ConvertOptions& options, Report& report);

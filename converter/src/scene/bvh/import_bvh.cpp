@@ -1,0 +1,323 @@
+#include "scene/failure.h"
+#include "scene/source/source_file.h"
+#include "scene/space.h"
+
+#include <bendy/converter/import.h>
+#include <bendy/format/charconv.h>
+
+#include <glm/ext/scalar_constants.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace bendy::converter {
+
+namespace bvh {
+namespace {
+
+constexpr double kCentimetre = 0.01;
+constexpr double kLargest = 1e15;  ///< of a number
+/// Frames are counted in floats, so that times ascend.
+constexpr std::size_t kMostFrames = std::size_t{1} << 22;
+constexpr std::size_t kMostChannels = 6;  ///< of a joint: each once
+
+char small(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+/// True if the word is `expected`, which is in lower case, in any case.
+bool is(std::string_view word, std::string_view expected) {
+    return std::equal(word.begin(), word.end(), expected.begin(), expected.end(),
+                      [](char a, char b) { return small(a) == b; });
+}
+
+/// The text as words. Line ends mean no more than spaces: files differ in where they break lines.
+class Words {
+public:
+    explicit Words(std::string_view text) : text_(text) {
+        if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
+    }
+
+    /// Empty at the end of the text.
+    std::string_view next() {
+        skip_space();
+        const std::size_t begin = at_;
+        while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
+        return text_.substr(begin, at_ - begin);
+    }
+    bool is_at_end() {
+        skip_space();
+        return at_ == text_.size();
+    }
+    /// The place of the last word.
+    [[nodiscard]] std::string place() const { return "line " + std::to_string(line_); }
+
+    /// From here on a colon is a space: `Frames:10`.
+    void split_at_colons() { colon_ = ':'; }
+
+    void expect(std::string_view word) {
+        if (const std::string_view found = next(); !is(found, word)) fail_at(found, "'" + std::string(word) + "'");
+    }
+    [[noreturn]] void fail_at(std::string_view found, const std::string& expected) const {
+        fail(place(), "expected " + expected + ", found " + (found.empty() ? "the end of the file" : quote(found)));
+    }
+
+    double number() {
+        const std::string_view word = next();
+        const char* begin = word.data();
+        const char* end = begin + word.size();
+        if (word.starts_with('+')) ++begin;
+        double value = 0.0;
+        const auto read = from_chars(begin, end, value);
+        if (word.empty() || read.ec != std::errc() || read.ptr != end) fail_at(word, "a number");
+        if (!(std::abs(value) <= kLargest)) fail(place(), "the number " + quote(word) + " is implausibly large");
+        return value;
+    }
+    std::size_t count(std::size_t most, const char* what) {
+        const double value = number();
+        if (!(value >= 0.0 && value <= static_cast<double>(most)) || value != std::floor(value))
+            fail(place(), std::string(what) + ": expected a whole number from 0 to " + std::to_string(most));
+        return static_cast<std::size_t>(value);
+    }
+
+private:
+    [[nodiscard]] bool is_space(char c) const {
+        return c == ' ' || (c >= '\t' && c <= '\r') || c == '\0' || c == colon_;
+    }
+    void skip_space() {
+        for (; at_ < text_.size() && is_space(text_[at_]); ++at_) line_ += text_[at_] == '\n' ? 1u : 0u;
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    std::size_t line_ = 1;
+    char colon_ = ' ';
+};
+
+/// A turn about a coordinate axis.
+glm::dquat turn(std::uint8_t axis, double degrees) {
+    const double half = std::remainder(degrees, 720.0) * glm::pi<double>() / 360.0;
+    glm::dvec3 part(0.0);
+    part[axis] = std::sin(half);
+    return {std::cos(half), part.x, part.y, part.z};
+}
+
+class Importer {
+public:
+    Importer(std::string_view text, const std::filesystem::path& file, double unit)
+        : words_(text), unit_(unit == 0.0 ? kCentimetre : unit) {
+        budget_.add_source(text.size());
+        const std::u8string stem = file.stem().u8string();
+        name_.assign(stem.begin(), stem.end());
+    }
+
+    Scene run(Report& report) {
+        read_hierarchy();
+        if (!words_.is_at_end()) read_motion(report);
+        return std::move(scene_);
+    }
+
+private:
+    /// What moves a joint: its numbers in a frame, in the file's order.
+    struct Moved {
+        std::uint32_t joint = 0;
+        std::vector<std::uint8_t> channels;  ///< X, Y, Z position: 0, 1, 2; X, Y, Z rotation: 3, 4, 5
+        Track translation, rotation;
+    };
+    /// A joint whose braces are open.
+    struct Open {
+        std::uint32_t joint = 0;
+        std::string place;
+        bool has_offset = false;
+        bool has_channels = false;
+    };
+
+    void read_hierarchy() {
+        words_.expect("hierarchy");
+        for (;;) {
+            const std::string_view word = words_.next();
+            if (word.empty() || is(word, "motion")) {
+                if (!open_.empty()) words_.fail_at(word, "'}'");
+                if (scene_.joints.empty()) words_.fail_at(word, "'ROOT'");
+                return;
+            }
+            if (is(word, open_.empty() ? "root" : "joint")) {
+                add_joint(false);
+            } else if (!open_.empty() && (is(word, "end") || is(word, "site"))) {
+                add_joint(true);
+            } else if (!open_.empty() && is(word, "offset")) {
+                read_offset();
+            } else if (!open_.empty() && is(word, "channels")) {
+                read_channels();
+            } else if (!open_.empty() && word == "}") {
+                if (!open_.back().has_offset) fail(open_.back().place, "the joint has no OFFSET");
+                open_.pop_back();
+            } else {
+                words_.fail_at(word, open_.empty() ? "'ROOT' or 'MOTION'" : "'OFFSET', 'CHANNELS', 'JOINT' or '}'");
+            }
+        }
+    }
+
+    /// Reads a joint's name, up to its brace. Names may contain spaces. An end gets its joint's name.
+    void add_joint(bool is_end) {
+        Open open;
+        open.place = words_.place();
+        open.joint = static_cast<std::uint32_t>(scene_.joints.size());
+        std::string name;
+        std::string_view word = words_.next();
+        if (is_end && is(word, "site")) word = words_.next();
+        for (; word != "{"; word = words_.next()) {
+            if (word.empty()) words_.fail_at(word, "'{'");
+            if (!name.empty()) name += ' ';
+            name += word;
+        }
+        Joint joint;
+        joint.parent = open_.empty() ? kNone : open_.back().joint;
+        joint.name = is_end && name.empty() ? scene_.joints[joint.parent].name + " end" : to_utf8(name);
+        budget_.take(1, sizeof(Joint) + sizeof(Open) + joint.name.size(), open.place);
+        scene_.joints.push_back(std::move(joint));
+        open_.push_back(std::move(open));
+    }
+
+    void read_offset() {
+        if (std::exchange(open_.back().has_offset, true)) fail(words_.place(), "the joint has two OFFSETs");
+        glm::vec3& offset = scene_.joints[open_.back().joint].rest.translation;
+        for (int axis = 0; axis < 3; ++axis) offset[axis] = length();
+    }
+
+    void read_channels() {
+        if (std::exchange(open_.back().has_channels, true)) fail(words_.place(), "the joint has CHANNELS twice");
+        const std::size_t count = words_.count(kMostChannels, "number of channels");
+        Moved moved;
+        moved.joint = open_.back().joint;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::string_view word = words_.next();
+            const std::size_t kind = word.empty() ? 3 : std::string_view("xyz").find(small(word.front()));
+            const bool turns = kind < 3 && is(word.substr(1), "rotation");
+            if (kind >= 3 || (!turns && !is(word.substr(1), "position")))
+                words_.fail_at(word, "a channel such as 'Xposition' or 'Zrotation'");
+            const auto channel = static_cast<std::uint8_t>(kind + (turns ? 3 : 0));
+            if (std::find(moved.channels.begin(), moved.channels.end(), channel) != moved.channels.end())
+                fail(words_.place(), "the joint has the channel " + quote(word) + " twice");
+            moved.channels.push_back(channel);
+        }
+        if (count == 0) return;
+        const auto has = [&](bool turns) {
+            return std::any_of(moved.channels.begin(), moved.channels.end(),
+                               [&](std::uint8_t channel) { return (channel >= 3) == turns; });
+        };
+        moved.translation = {TrackPath::translation, Interpolation::linear, moved.joint, has(false) ? 3u : 0u, {}, {}};
+        moved.rotation = {TrackPath::rotation, Interpolation::linear, moved.joint, has(true) ? 4u : 0u, {}, {}};
+        budget_.take(1, sizeof(Moved) + kMostChannels, words_.place());
+        moved_.push_back(std::move(moved));
+    }
+
+    void read_motion(Report& report) {
+        words_.split_at_colons();
+        words_.expect("frames");
+        const std::size_t stated = words_.count(kMostFrames, "number of frames");
+        words_.expect("frame");
+        words_.expect("time");
+        const double step = words_.number();
+        if (!(step >= 1e-6 && step <= 1e6) && stated > 1)
+            fail(words_.place(), "the time of a frame must be between 0.000001 s and 1,000,000 s");
+        std::size_t per_frame = 0;  // bytes
+        for (const Moved& each : moved_) {
+            for (const Track* track : {&each.translation, &each.rotation})
+                per_frame += track->components == 0 ? 0 : (track->components + 1) * sizeof(float);
+        }
+        std::size_t frames = 0;
+        for (; !words_.is_at_end() && !moved_.empty(); ++frames) {
+            if (frames == kMostFrames) fail(words_.place(), "there are too many frames");
+            budget_.take(1, per_frame, words_.place());
+            read_frame(static_cast<float>(static_cast<double>(frames) * step));
+        }
+        if (frames != stated && !moved_.empty()) {
+            report.warn("the file says " + std::to_string(stated) + " frames and has " + std::to_string(frames) +
+                        ", which are all read");
+        }
+        if (frames > 0) add_clip(frames, step);
+    }
+
+    void read_frame(float time) {
+        for (Moved& each : moved_) {
+            glm::vec3 place = scene_.joints[each.joint].rest.translation;
+            glm::dquat turned(1.0, 0.0, 0.0, 0.0);
+            for (const std::uint8_t channel : each.channels) {
+                if (channel < 3) {
+                    place[channel] = length();
+                } else {
+                    turned = turned * turn(static_cast<std::uint8_t>(channel - 3), words_.number());
+                }
+            }
+            add_key(each.translation, time, to_array<3>(place));
+            add_key(each.rotation, time, to_array<4>(glm::dvec4(turned.x, turned.y, turned.z, turned.w)));
+        }
+    }
+
+    template <std::size_t N>
+    static void add_key(Track& track, float time, const std::array<float, N>& value) {
+        if (track.components == 0) return;
+        track.times.push_back(time);
+        track.values.insert(track.values.end(), value.begin(), value.end());
+    }
+
+    /// Makes the clip of the tracks. A track that stays the same needs one key.
+    void add_clip(std::size_t frames, double step) {
+        Clip clip;
+        clip.name = name_;
+        for (Moved& each : moved_) {
+            for (Track* track : {&each.translation, &each.rotation}) {
+                if (track->components == 0) continue;
+                const auto second = track->values.begin() + track->components;
+                if (std::equal(second, track->values.end(), track->values.begin())) {
+                    track->times.resize(1);
+                    track->values.resize(track->components);
+                }
+                clip.tracks.push_back(std::move(*track));
+            }
+        }
+        const auto end = static_cast<float>(static_cast<double>(frames - 1) * step);
+        if (std::none_of(clip.tracks.begin(), clip.tracks.end(),
+                         [&](const Track& track) { return track.times.back() == end; }))
+            clip.stated_span = ClipSpan{0.0f, end};
+        scene_.clips.push_back(std::move(clip));
+    }
+
+    /// Reads a length, in metres.
+    float length() {
+        const double metres = words_.number() * unit_;
+        if (!(std::abs(metres) <= kLargest)) fail(words_.place(), "the length is implausibly large");
+        return static_cast<float>(metres);
+    }
+
+    Words words_;
+    double unit_;
+    std::string name_;  ///< of the file, without its suffix
+    Budget budget_;
+    Scene scene_;
+    std::vector<Open> open_;
+    std::vector<Moved> moved_;  ///< in the order of the numbers of a frame
+};
+
+}  // namespace
+}  // namespace bvh
+
+Result<Scene, ImportError> import_bvh(std::string_view text, const std::filesystem::path& file,
+                                      const BvhOptions& options, Report& report) {
+    return without_throwing<Scene>([&]() -> Result<Scene, ImportError> {
+        Scene scene = bvh::Importer(text, file, options.unit).run(report);
+        if (options.unit == 0.0) report.warn("units are taken as centimetres; --unit sets another length");
+        return scene;
+    });
+}
+
+}  // namespace bendy::converter
