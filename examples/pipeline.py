@@ -14,7 +14,7 @@ from pathlib import Path
 
 import bendy
 
-SUFFIXES = {".glb", ".gltf", ".vrm", ".x", ".md2", ".bendy"}
+SUFFIXES = {".glb", ".gltf", ".vrm", ".vrma", ".x", ".md2", ".bvh", ".bendy"}
 COLUMNS = ["file", "bytes", "joints", "constraints", "chains", "vertices", "triangles", "clips", "seconds", "faults", "warnings", "error"]
 
 

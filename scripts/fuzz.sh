@@ -35,7 +35,7 @@ fi
 fuzz() { # fuzz TARGET: one process, its last lines printed
     local target=$1 seeds=$build/seeds/bendy
     case $target in
-        codec | convert | md2 | rig | text | x) seeds=$build/seeds/$target ;;
+        bvh | codec | convert | md2 | rig | text | x) seeds=$build/seeds/$target ;;
     esac
     local corpus=$build/corpus/$target log=$build/fuzz_$target.log status=0
     if [ "$seed" = 1 ]; then

@@ -70,7 +70,25 @@ def schemas(rig):
         del chain["properties"][name]["type"]
     chain["properties"] |= {"weights": WEIGHTS} | FURTHER
     chains |= {"weight": WEIGHT, "node": {"description": "Number of a node", "type": "integer", "minimum": 0}}
+    roles = [camel(word) for word in rig["properties"]["roles"]["propertyNames"]["enum"]]
+    role = {
+        "type": "object",
+        "required": ["role"],
+        "additionalProperties": False,
+        "properties": {
+            "role": {"enum": roles},
+            "place": {"description": "Of a chain: the node's place in it, ascending from the body outwards", "type": "integer",
+                      "minimum": 0, "maximum": 65535},
+        } | FURTHER,
+    }
     return {
+        "node.BENDY_joint_role.schema.json": {
+            "$schema": "https://json-schema.org/draft/2020-12/schema",
+            "title": "BENDY_joint_role",
+            "description": "What a node is in the body; gltf.md describes it.",
+            "$ref": "#/$defs/role",
+            "$defs": {"role": role},
+        },
         "node.BENDY_joint_limits.schema.json": file_schema(
             "BENDY_joint_limits", "What a node's rotation and translation may be, relative to its rest transform; gltf.md describes it.",
             "limits", {"maxItems": 3, "items": {"$ref": "#/$defs/constraint"}}, limits),

@@ -57,7 +57,7 @@ bendy_model = rule(
     attrs = {
         "src": attr.label(
             mandatory = True,
-            allow_single_file = [".glb", ".gltf", ".vrm", ".x", ".md2", ".bendy"],
+            allow_single_file = [".glb", ".gltf", ".vrm", ".vrma", ".x", ".md2", ".bvh", ".bendy"],
             doc = "The source.",
         ),
         "data": attr.label_list(

@@ -4,9 +4,12 @@
     formats_test.py --bendy PROGRAM --source SOURCE_DIR [unittest's own arguments]
 """
 
+import base64
 import json
 import os
+import re
 import shutil
+import struct
 import sys
 import unittest
 import unittest.mock
@@ -16,6 +19,7 @@ from jsonschema import Draft202012Validator
 
 sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
+from bvh_file import Bvh, walk  # noqa: E402
 from chunk_file import Chunk  # noqa: E402
 from md2_file import Md2, md2_file, player_names, tube_md2  # noqa: E402
 from mesh_file import read_obj  # noqa: E402
@@ -123,6 +127,8 @@ class Export(Case):
             old_limits, old_chains = self.rig_of(before)
             for number, node in enumerate(before["nodes"]):
                 self.assertEqual(limits[numbers[node["name"]]], old_limits[number])
+                role = node.get("extensions", {}).get("BENDY_joint_role")
+                self.assertEqual(after["nodes"][numbers[node["name"]]].get("extensions", {}).get("BENDY_joint_role"), role)
             for chain in old_chains["chains"]:
                 for member in ("start", "effector", "target", "pole"):
                     if member in chain:
@@ -140,11 +146,12 @@ class Export(Case):
         rig = json.loads(self.done("rig", "arm.bendy"))
         self.assertEqual((sorted(rig["joints"]), rig["joints"]["LowerArm"]["model"]), (["LowerArm", "UpperArm"], "locked"))
 
-    def test_only_roles_that_are_not_found_again_are_a_loss(self):
+    def test_roles_are_kept_by_gltf_and_lost_by_x_unless_found_again(self):
         self.done("convert", "-q", SOURCE / "examples" / "mannequin.glb", "-o", "found.bendy")
         self.done("edit", "-q", "found.bendy", "--role", "jaw=mixamorig:LeftEye", "-o", "said.bendy")
         for suffix in (".glb", ".x"):
-            for name, is_lost in (("found", False), ("said", True)):
+            for name in ("found", "said"):
+                is_lost = suffix == ".x" and name == "said"
                 result = self.bendy("export", f"{name}.bendy", "-o", f"{name}{suffix}")
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(b"roles of joints left out" in result.stderr, is_lost, (name, suffix))
@@ -231,6 +238,89 @@ class XFiles(Case):
         (self.folder / "other.x").write_bytes(b"solid")
         self.assertIn("not an X-file", self.failed("convert", "other.x", file="other.x"))
         self.assertIn("glTF files only", self.failed("convert", "bad.x", "--scene", "0", file="bad.x"))
+
+
+class BiovisionFiles(Case):
+    def test_joints_are_where_another_evaluation_has_them(self):
+        text = walk()
+        (self.folder / "walk.bvh").write_text(text)
+        shown = self.bendy("convert", "walk.bvh", "--unit", "0.0254")
+        self.assertEqual((shown.returncode, shown.stderr), (0, b""))
+        self.assertIn(b"clips          1: walk 0.3667 s", shown.stdout)
+        judge = Bvh(text)
+        for frame in [None, *range(len(judge.frames))]:
+            options = [] if frame is None else ["--clip", "walk", "--time", repr(frame * judge.step)]
+            self.done("pose", "walk.bendy", *options, "-o", "posed.json")
+            joints = json.loads((self.folder / "posed.json").read_text())["joints"]
+            for joint, place in zip(joints, judge.places(frame), strict=True):
+                for found, expected in zip(joint["world"][12:15], place):
+                    self.assertAlmostEqual(found, expected * 0.0254, delta=1e-5 * 170 * 0.0254, msg=(frame, joint["name"]))
+
+    def test_dialects_mean_the_same(self):
+        text = walk(3)
+        (self.folder / "walk.bvh").write_text(text)
+        self.done("convert", "walk.bvh", "-q", "-o", "plain.bendy")
+        frames = text.index(".0333333\n") + len(".0333333\n")
+        for name, other in {
+                "tabs and CRLF": re.sub(" +", "\t", text).replace("\n", " \r\n"),
+                "mark and case": "\ufeff\n" + text.replace("HIERARCHY", "Hierarchy").replace("rotation", "ROTATION"),
+                "braces": text.replace("\n  {", " {").replace("Frames: ", "Frames:").replace("Frame Time:", "Frame Time :"),
+                "sites": text.replace("End Site", "Site", 2),
+                "lines": text[:frames] + text[frames:].replace(" ", "\n"),
+                "plus": text.replace("\n95", "\n+95")}.items():
+            (self.folder / "walk.bvh").write_bytes(other.encode())
+            self.done("convert", "walk.bvh", "-q", "-o", "other.bendy")
+            self.assertEqual((self.folder / "other.bendy").read_bytes(), (self.folder / "plain.bendy").read_bytes(), name)
+
+    def test_roles_are_found_and_the_unit_is_said(self):
+        (self.folder / "walk.bvh").write_text(walk())
+        self.assertIn(b"units are taken as centimetres; --unit sets", self.bendy("convert", "walk.bvh").stderr)
+        roles = json.loads(self.done("rig", "walk.bendy"))["roles"]
+        self.assertEqual([roles[role] for role in ("hips", "left_upper_leg", "left_lower_leg", "right_hand")],
+                         ["Hips", "LeftUpLeg", "LeftLeg", "RightHand"])
+        self.assertIn("BVH files only", self.failed("convert", "walk.bendy", "--unit", "1", "-o", "x.bendy", file="walk.bendy"))
+
+    def test_what_is_wrong_has_its_line(self):
+        (self.folder / "bad.bvh").write_text(walk().replace("OFFSET 0 10 0", "OFFSET 0 ten 0", 1))
+        self.assertIn("line 8: expected a number, found 'ten'", self.failed("convert", "bad.bvh", file="bad.bvh"))
+
+
+def vrm_animation(bones, expressions):
+    """Four nodes, of which the third goes along X from 0 to 1 in a second, and the last from 1 to 3."""
+    keys = struct.pack("<14f", 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 3, 0, 0)
+    return json.dumps({
+        "asset": {"version": "2.0"},
+        "extensionsUsed": ["VRMC_vrm_animation"],
+        "extensions": {"VRMC_vrm_animation": {
+            "specVersion": "1.0", "expressions": expressions,
+            "humanoid": {"humanBones": {bone: {"node": node} for bone, node in bones.items()}}}},
+        "nodes": [{"name": "a", "children": [1, 2, 3]}, {"name": "b"}, {"name": "c"}, {"name": "d"}],
+        "animations": [{
+            "channels": [{"sampler": i, "target": {"node": i + 2, "path": "translation"}} for i in (0, 1)],
+            "samplers": [{"input": 0, "output": 1}, {"input": 0, "output": 2}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+                      {"bufferView": 0, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "VEC3"},
+                      {"bufferView": 0, "byteOffset": 32, "componentType": 5126, "count": 2, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(keys)}],
+        "buffers": [{"byteLength": len(keys), "uri": "data:;base64," + base64.b64encode(keys).decode()}]})
+
+
+class VrmAnimations(Case):
+    def test_bones_have_roles_and_expressions_are_curves(self):
+        text = vrm_animation({"hips": 0, "head": 1}, {"preset": {"happy": {"node": 2}}, "custom": {"wink": {"node": 3}}})
+        (self.folder / "a.vrma").write_text(text)
+        result = self.bendy("convert", "a.vrma")
+        self.assertIn(b"only its humanoid and expressions are interpreted: 'VRMC_vrm_animation'", result.stderr)
+        self.assertEqual(json.loads(self.done("rig", "a.bendy"))["roles"], {"hips": "a", "head": "b"})
+
+        def weights(file):
+            self.done("pose", file, "--clip", "#0", "--time", "0.5", "-o", "posed.json")
+            curves = json.loads((self.folder / "posed.json").read_text())["curves"]
+            return {curve["name"]: curve["values"] for curve in curves}
+        self.assertEqual(weights("a.bendy"), {"happy": [0.5], "wink": [1.0]})  # 0 to 1, and 1 to 3, which is more than all
+        self.assertEqual(self.bendy("export", "a.bendy", "-o", "a.glb").stderr, b"")
+        self.done("convert", "a.glb", "-q", "-o", "again.bendy")
+        self.assertEqual(weights("again.bendy"), weights("a.bendy"))
 
 
 class QuakeModels(Case):

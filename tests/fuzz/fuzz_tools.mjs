@@ -23,7 +23,7 @@ const oneOf = (items) => items[below(items.length)];
 const sometimes = (options) => Object.fromEntries(Object.entries(options).filter(() => below(3) === 0));
 
 const seeds = {};
-for (const kind of ['bendy', 'convert', 'md2', 'rig', 'text', 'x']) {
+for (const kind of ['bendy', 'bvh', 'convert', 'md2', 'rig', 'text', 'x']) {
   const folder = join(root, 'build/fuzz/seeds', kind);
   seeds[kind] = readdirSync(folder).map((name) => new Uint8Array(readFileSync(join(folder, name))));
 }
@@ -77,7 +77,7 @@ const convertOptions = () =>
 
 /** Each call, and what it is made with, for a finding. */
 const calls = {
-  convert: () => [mutated(oneOf(['convert', 'x', 'md2', 'bendy'])), convertOptions()],
+  convert: () => [mutated(oneOf(['convert', 'x', 'md2', 'bvh', 'bendy'])), convertOptions()],
   validate: () => [mutated('bendy')],
   inspect: () => [mutated('bendy')],
   summary: () => [mutated('bendy')],

@@ -5,7 +5,7 @@
 
 OUT/bendy gets bendy files: the program BENDY's conversions of glTF files that are made here, and of those of the FOLDERs
 with their buffers packed into them, and the specification's and the tests' own; OUT/codec the leaves of these; OUT/rig their
-rig files; OUT/text their text forms; OUT/x X-files; OUT/md2 Quake II models; OUT/convert sources of all formats, each with
+rig files; OUT/text their text forms; OUT/x X-files; OUT/md2 Quake II models; OUT/bvh Biovision files; OUT/convert sources of all formats, each with
 several sets of options. Only small files: a fuzzer finds more in a thousand small ones than in one large one.
 """
 
@@ -23,6 +23,7 @@ import urllib.parse
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "cli"))
 
+from bvh_file import walk  # noqa: E402
 from chunk_file import Chunk  # noqa: E402
 from gltf_file import GltfFile, strange_file  # noqa: E402
 from md2_file import md2_file  # noqa: E402
@@ -228,7 +229,9 @@ def gather(bendy, out, folders, work):
     keep(out / "x", binary_x_file())
     for names in (("only",), ("stand01", "stand02", "run1"), ("pain101", "pain102", "pain201")):
         keep(out / "md2", md2_file(work / "model.md2", names).read_bytes())
-    for folder in ("x", "md2"):
+    for text in (walk(3), walk(0), walk(1).replace("\n", "\r\n").replace("  ", "\t")):
+        keep(out / "bvh", text.encode())
+    for folder in ("x", "md2", "bvh"):
         for file in sorted((out / folder).iterdir()):
             keep_conversion(out / "convert", file.read_bytes())
     for folder in ("spec", "tests"):

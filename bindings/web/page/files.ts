@@ -1,7 +1,7 @@
 // The files that somebody drops or chooses: which of them are characters, and which belong to these.
 
 /** Of characters; those that refer to other files come first. */
-export const suffixes = ['.gltf', '.x', '.glb', '.vrm', '.md2', '.bendy'];
+export const suffixes = ['.gltf', '.x', '.glb', '.vrm', '.vrma', '.md2', '.bvh', '.bendy'];
 const companions = ['.bin', '.json', '.png', '.jpg', '.jpeg', '.webp', '.ktx2', '.tga', '.bmp', '.dds', '.pcx'];
 /** For `accept` of a file input. */
 export const acceptedSuffixes = [...suffixes, ...companions].join();

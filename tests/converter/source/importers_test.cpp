@@ -47,7 +47,7 @@ TEST(Importers, AreFoundByTheirSuffixesWhereTheContentSaysNothing) {
 }
 
 TEST(Importers, AreListedForPeople) {
-    EXPECT_EQ(list_readable_suffixes(), ".gltf, .glb, .vrm, .x, .md2");
+    EXPECT_EQ(list_readable_suffixes(), ".gltf, .glb, .vrm, .vrma, .x, .md2, .bvh");
 }
 
 TEST(Importers, SuggestedCommandsNameAFileAndNothingElse) {
@@ -59,7 +59,8 @@ TEST(Importers, SuggestedCommandsNameAFileAndNothingElse) {
 }
 
 TEST(Importers, EveryFormatHasOne) {
-    for (const SourceFormat format : {SourceFormat::gltf, SourceFormat::bendy, SourceFormat::x, SourceFormat::md2})
+    for (const SourceFormat format : {SourceFormat::gltf, SourceFormat::bendy, SourceFormat::x, SourceFormat::md2,
+                                      SourceFormat::bvh})
         EXPECT_EQ(importer_of(format).format, format);
 }
 

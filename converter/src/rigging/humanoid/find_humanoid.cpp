@@ -203,6 +203,12 @@ private:
                        upper, lower)) {
             return;
         }
+        // Of `LeftCollar` and `LeftShoulder`, the upper arm is the lower one.
+        for (const Candidate& candidate : list(BodyPart::shoulder, side)) {
+            if (is_named(upper, {BodyPart::shoulder}) && is_below(candidate.joint, upper) &&
+                is_below(lower, candidate.joint))
+                upper = candidate.joint;
+        }
         const std::uint32_t hand = find_end(BodyPart::hand, side, lower, side == BodySide::left ? 0 : 1);
         found_.bones[of_side(HumanBone::left_upper_arm, side)] = upper;
         found_.bones[of_side(HumanBone::left_lower_arm, side)] = lower;

@@ -4,8 +4,6 @@
 #include <bendy/converter/scene.h>
 
 #include <algorithm>
-#include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,9 +19,8 @@ void find_roles(Scene& scene);
 inline void find_roles(Scene& /*scene*/) {}
 #endif
 
-/// Warns if the scene has roles other than find_roles would find: an export to a format without roles loses them.
-/// \param format  "glTF"
-inline void warn_of_lost_roles(Scene& scene, std::string_view format, Report& report) {
+/// Warns if the scene has roles other than find_roles would find: an X-file has no place for them.
+inline void warn_of_lost_roles(Scene& scene, Report& report) {
     if (scene.roles.empty()) return;
     std::vector<RoleRecord> kept = std::exchange(scene.roles, {});
     find_roles(scene);
@@ -33,8 +30,8 @@ inline void warn_of_lost_roles(Scene& scene, std::string_view format, Report& re
                                       });
     scene.roles = std::move(kept);
     if (are_found) return;
-    report.warn("roles of joints left out: " + std::string(format) +
-                " has no place for them (`bendy rig` writes them to a rig file)");
+    report.warn(
+        "roles of joints left out: an X-file has no place for them (`bendy rig` writes them to a rig file)");
 }
 
 }  // namespace bendy::converter

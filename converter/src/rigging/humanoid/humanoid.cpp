@@ -284,7 +284,10 @@ std::optional<BoneName> read_bone_name(std::string_view name) {
     if (spelling != kSpellings.end()) {
         result.part = spelling->part;
         result.rank = spelling->rank;
-        if (words.has("hip") && result.side != BodySide::none) result.part = BodyPart::upper_leg;
+        if (words.has("hip") && result.side != BodySide::none) {
+            result.part = BodyPart::upper_leg;
+            result.rank = 1;  // some rigs have a joint above the thigh, as `LHipJoint` above `LeftUpLeg`
+        }
         if (is_of_a_limb(result.part) == (result.side == BodySide::none)) return std::nullopt;
         return result;
     }
@@ -303,6 +306,9 @@ std::optional<VrmHumanoid> read_vrm_humanoid(const Scene& scene, Report& report)
     if (const auto vrm = extensions.find("VRMC_vrm"); vrm != extensions.end()) {
         result.place = "extensions.VRMC_vrm.humanoid";
         read_bones_1(*vrm, "extensions.VRMC_vrm", reader);
+    } else if (const auto motion = extensions.find("VRMC_vrm_animation"); motion != extensions.end()) {
+        result.place = "extensions.VRMC_vrm_animation.humanoid";
+        read_bones_1(*motion, "extensions.VRMC_vrm_animation", reader);
     } else if (const auto old = extensions.find("VRM"); old != extensions.end()) {
         result.place = "extensions.VRM.humanoid";
         result.faces_backward = true;

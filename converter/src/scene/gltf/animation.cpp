@@ -1,4 +1,5 @@
 #include "accessor.h"
+#include "extensions.h"
 #include "further_members.h"
 #include "parts.h"
 #include "pointer.h"
@@ -68,6 +69,24 @@ bool asks_to_loop(const Json& animation) {
     return loop->is_boolean() ? loop->get<bool>() : loop->is_number() && loop->get<double>() != 0.0;
 }
 
+/// The names of the expressions of a VRM animation, by the joint whose X is the expression's weight.
+std::map<std::uint32_t, std::string> find_expressions(const Json& root, const Skeleton& skeleton) {
+    std::map<std::uint32_t, std::string> names;
+    const Json::json_pointer all("/extensions/" + std::string(kVrmAnimation) + "/expressions");
+    for (const char* kind : {"/preset", "/custom"}) {
+        const Json::json_pointer place = all / Json::json_pointer(kind);
+        if (!root.contains(place) || !root[place].is_object()) continue;
+        for (const auto& [name, expression] : root[place].items()) {
+            const Json* node = expression.is_object() ? find(expression, "node") : nullptr;
+            if (node == nullptr || !node->is_number_unsigned()) continue;
+            const auto number = node->get<std::uint64_t>();
+            if (number < skeleton.joint_of_node.size() && skeleton.joint_of_node[number] != kNone)
+                names.try_emplace(skeleton.joint_of_node[number], name);
+        }
+    }
+    return names;
+}
+
 class AnimationImporter {
 public:
     AnimationImporter(const Document& document, const Skeleton& skeleton, const MeshesOfNode& meshes, Scene& scene)
@@ -75,6 +94,7 @@ public:
           skeleton_(skeleton),
           meshes_(meshes),
           pointers_(document, skeleton, meshes),
+          expressions_(find_expressions(document.json, skeleton)),
           scene_(scene) {}
 
     void import(std::size_t index) {
@@ -98,6 +118,7 @@ public:
                 }
             }
         }
+        for (const Track& track : clip.tracks) add_expression(track, clip);
         take_markers_from_extras(clip, place_ + ".extras", document_.report);
         scene_.clips.push_back(std::move(clip));
     }
@@ -247,6 +268,25 @@ private:
         add_curve(std::move(curve), place, clip);
     }
 
+    /// Adds the weight of the expression that the joint of a track stands for, 0 to 1, as a curve with its name.
+    void add_expression(const Track& track, Clip& clip) {
+        const auto name = expressions_.find(track.target);
+        if (track.path != TrackPath::translation || name == expressions_.end()) return;
+        document_.budget.take(track.times.size(), 4 * sizeof(float), place_);
+        Curve curve;
+        curve.name = name->second;
+        curve.path = kExpressionPath;
+        curve.kind = CurveTarget::joint;
+        curve.target = track.target;
+        curve.interpolation = track.interpolation;
+        curve.times = track.times;
+        for (std::size_t i = 0; i < track.values.size(); i += 3) curve.values.push_back(track.values[i]);
+        if (track.interpolation != Interpolation::cubic) {
+            for (float& weight : curve.values) weight = std::clamp(weight, 0.0f, 1.0f);
+        }
+        add_curve(std::move(curve), place_, clip);
+    }
+
     void add_curve(Curve curve, const std::string& place, Clip& clip) {
         const auto [known, is_new] = curve_of_.emplace(own_property_of(curve), clip.curves.size());
         if (is_new) {
@@ -365,6 +405,7 @@ private:
     const Skeleton& skeleton_;
     const MeshesOfNode& meshes_;
     PointerReader pointers_;
+    std::map<std::uint32_t, std::string> expressions_;
     Losses losses_;
     Scene& scene_;
     std::string place_;                            ///< of the animation

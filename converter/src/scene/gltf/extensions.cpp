@@ -55,6 +55,7 @@ constexpr std::array kKnown = {
     Known{"AGI_stk_metadata", Use::ignored},
     Known{kIkChains, Use::ignored},
     Known{kJointLimits, Use::ignored},
+    Known{kJointRole, Use::ignored},
     Known{"KHR_lights_punctual", Use::ignored},
     Known{"KHR_materials_variants", Use::ignored},
     Known{"KHR_xmp_json_ld", Use::ignored},
@@ -62,6 +63,7 @@ constexpr std::array kKnown = {
     Known{"VRMC_node_constraint", Use::ignored},
     Known{"VRMC_springBone", Use::ignored},
     Known{"VRMC_vrm", Use::ignored},
+    Known{kVrmAnimation, Use::ignored},
 };
 
 const Known* find_known(std::string_view name) {
@@ -184,6 +186,8 @@ std::string kept_message(const std::string& name) {
                quote(name);
     }
     if (name == "VRMC_vrm") return "extension kept as JSON, only its humanoid is interpreted: " + quote(name);
+    if (name == kVrmAnimation)
+        return "extension kept as JSON, only its humanoid and expressions are interpreted: " + quote(name);
     return (extensions::is_known(name) ? "extension kept as JSON, not interpreted: "
                                        : "extension kept as JSON, not interpreted, numbers in it are the source's: ") +
            quote(name);
@@ -277,7 +281,9 @@ public:
         }
         Json kept = *extensions;
         if (are_instances_made) kept.erase(std::string(kInstancing));
-        kept.erase(std::string(place.empty() ? kIkChains : kJointLimits));  // import_rig_extensions has read them
+        // import_rig_extensions has read these.
+        kept.erase(std::string(place.empty() ? kIkChains : kJointLimits));
+        if (!place.empty()) kept.erase(std::string(kJointRole));
         for (auto extension = kept.begin(); extension != kept.end();) {
             const std::string at_extension = here + '.' + key(extension.key());
             if (place.empty() && extension.key() == kVariants) {

@@ -30,8 +30,8 @@ struct Skeleton {
 /// on cycles of nodes, anywhere in the file.
 Skeleton import_skeleton(const Document& document, const GltfOptions& options, Scene& scene);
 
-/// Fills the constraints of joints from BENDY_joint_limits of their nodes, and Scene::chains from BENDY_ik_chains
-/// (spec/gltf.md). Faulty entries are named in the report and left out.
+/// Fills the constraints of joints from BENDY_joint_limits of their nodes, Scene::roles from BENDY_joint_role, and
+/// Scene::chains from BENDY_ik_chains (spec/gltf.md). Faulty entries are named in the report and left out.
 void import_rig_extensions(const Document& document, const Skeleton& skeleton, Scene& scene);
 
 // EXT_mesh_gpu_instancing: a node that draws its mesh several times.

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -57,7 +58,7 @@ private:
     void remove_further(OrderedJson& object, const std::string& place, std::span<const char* const> names) {
         for (const char* name : names) {
             if (!object.is_object() || object.erase(name) == 0) continue;
-            document_.report.warn("further data of limits and chains left out", member(place, name));
+            document_.report.warn("further data of limits, roles and chains left out", member(place, name));
         }
     }
 
@@ -73,11 +74,35 @@ private:
 
     void read_node(std::uint32_t joint) {
         const std::uint32_t node = skeleton_.node_of_joint[joint];
-        const Json* extension = find_extension(document_.json["nodes"][node], kJointLimits);
-        if (extension == nullptr) return;
-        const std::string place = at("nodes", node) + ".extensions." + std::string(kJointLimits);
-        guard("limits left out", place,
-              [&] { scene_.joints[joint].constraints = read_limits(*extension, place, scene_.joints[joint].name); });
+        const Json& source = document_.json["nodes"][node];
+        const std::string before = at("nodes", node) + ".extensions.";
+        if (const Json* limits = find_extension(source, kJointLimits); limits != nullptr) {
+            const std::string place = before + std::string(kJointLimits);
+            guard("limits left out", place,
+                  [&] { scene_.joints[joint].constraints = read_limits(*limits, place, scene_.joints[joint].name); });
+        }
+        if (const Json* role = find_extension(source, kJointRole); role != nullptr) {
+            const std::string place = before + std::string(kJointRole);
+            guard("role left out", place, [&] { scene_.roles.push_back(read_role(*role, joint, place)); });
+        }
+    }
+
+    RoleRecord read_role(const Json& extension, std::uint32_t joint, const std::string& place) {
+        auto own = parse_json_text<OrderedJson>(extension.dump(), document_.report);
+        remove_further(own, place, kFurther);
+        Fields fields(own, place, Notation::gltf);
+        fields.need("role");
+        std::uint8_t role = 0;
+        fields.read_word("role", std::span(kValueNames<Role>).subspan(1), role);
+        ++role;
+        std::uint64_t number = 0;
+        const bool is_chain = role >= static_cast<std::uint8_t>(kFirstChainRole);
+        if (is_chain) fields.need("place");
+        fields.read_integer("place", is_chain ? 0xffff : 0, number);
+        fields.refuse_others();
+        const RoleRecord record{joint, role, static_cast<std::uint16_t>(number)};
+        if (!roles_.emplace(record.role, record.place).second) fail(place, "an earlier node has the same role");
+        return record;
     }
 
     std::vector<ConstraintRecord> read_limits(const Json& extension, const std::string& place,
@@ -168,7 +193,8 @@ private:
     const Document& document_;
     const Skeleton& skeleton_;
     Scene& scene_;
-    std::optional<JointIndex> index_;  ///< for chains
+    std::optional<JointIndex> index_;                           ///< for chains
+    std::set<std::pair<std::uint16_t, std::uint16_t>> roles_;  ///< with their places
 };
 
 }  // namespace

@@ -84,7 +84,7 @@ public:
         const float shift = shift_of(clip);
         for (std::size_t c = 0; c < clip.curves.size(); ++c) {
             const Curve& curve = clip.curves[c];
-            if (is_written_for_another(curve)) continue;
+            if (is_written_already(curve)) continue;
             const std::string pointer = pointer_to(curve);
             if (pointer.empty() || !open_parent(root_, pointer)) {
                 report_.warn("curve left out: the file has no " + quote(pointer.empty() ? curve.path : pointer),
@@ -124,9 +124,11 @@ private:
         }
     }
 
-    /// Nodes share a camera only if the same curves move it.
-    [[nodiscard]] bool is_written_for_another(const Curve& curve) const {
-        if (curve.kind != CurveTarget::joint || !curve.path.starts_with(kCameraPath)) return false;
+    /// Nodes share a camera only if the same curves move it. An expression is part of its joint's track.
+    [[nodiscard]] bool is_written_already(const Curve& curve) const {
+        if (curve.kind != CurveTarget::joint) return false;
+        if (curve.path == kExpressionPath) return true;
+        if (!curve.path.starts_with(kCameraPath)) return false;
         const Json& node = root_["nodes"][curve.target];
         const auto camera = node.find("camera");
         return camera != node.end() && node_of_camera_.at(camera->get<std::size_t>()) != curve.target;

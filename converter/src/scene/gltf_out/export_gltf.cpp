@@ -1,5 +1,4 @@
 #include "optimise/passes/mesh_order.h"
-#include "rigging/humanoid/find_roles.h"
 #include "scene/curve_property.h"
 #include "scene/failure.h"
 #include "scene/gltf/source_generator.h"
@@ -206,7 +205,6 @@ GltfAsset export_bytes(Bytes bytes, const std::filesystem::path& buffer_file, Re
         move_links(*scene, bendy_file, options.output, ReadableFolders::of(bendy_file), report);
     if (!options.vertices.empty()) keep_level(*scene, options.vertices);
     for (std::size_t i = 0; i < scene->meshes.size(); ++i) merge_influences(scene->meshes[i], at("meshes", i), report);
-    warn_of_lost_roles(*scene, "glTF", report);
     return write(*scene, buffer_file, report);
 }
 

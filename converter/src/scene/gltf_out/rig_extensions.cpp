@@ -42,6 +42,11 @@ void export_rig(const Scene& scene, Json& root, Report& report) {
         if (scene.joints[i].constraints.empty()) continue;
         root["nodes"][i]["extensions"][std::string(gltf::kJointLimits)]["limits"] = limits_of(scene.joints[i], report);
     }
+    for (const RoleRecord& record : scene.roles) {
+        Json& role = root["nodes"][record.joint]["extensions"][std::string(gltf::kJointRole)];
+        role["role"] = spelled(kValueNames<Role>[record.role], Notation::gltf);
+        if (record.role >= static_cast<std::uint16_t>(kFirstChainRole)) role["place"] = record.place;
+    }
     for (std::size_t i = 0; i < scene.chains.size(); ++i) {
         root["extensions"][std::string(gltf::kIkChains)]["chains"].push_back(
             write_chain(scene.chains[i], at("chains", i), report));

@@ -237,7 +237,7 @@ XAsset export_bytes(Bytes bytes, const std::string& image_stem, Report& report, 
         move_links(*scene, bendy_file, options.output, ReadableFolders::of(bendy_file), report);
     if (!options.vertices.empty()) keep_level(*scene, options.vertices);
     for (std::size_t i = 0; i < scene->meshes.size(); ++i) merge_influences(scene->meshes[i], at("meshes", i), report);
-    warn_of_lost_roles(*scene, "an X-file", report);
+    warn_of_lost_roles(*scene, report);
     return x_out::write(*scene, image_stem, report);
 }
 
