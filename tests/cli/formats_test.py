@@ -316,7 +316,7 @@ class VrmAnimations(Case):
         def weights(file):
             self.done("pose", file, "--clip", "#0", "--time", "0.5", "-o", "posed.json")
             curves = json.loads((self.folder / "posed.json").read_text())["curves"]
-            return {curve["name"]: curve["values"] for curve in curves}
+            return {curve["name"]: curve["value"] for curve in curves}
         self.assertEqual(weights("a.bendy"), {"happy": [0.5], "wink": [1.0]})  # 0 to 1, and 1 to 3, which is more than all
         self.assertEqual(self.bendy("export", "a.bendy", "-o", "a.glb").stderr, b"")
         self.done("convert", "a.glb", "-q", "-o", "again.bendy")

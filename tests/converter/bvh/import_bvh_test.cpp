@@ -89,8 +89,10 @@ TEST(ImportBvh, FaultsNameTheirLine) {
     EXPECT_EQ(fault_of("HIERARCHY ROOT a"), "line 1: expected '{', found the end of the file");
     EXPECT_EQ(fault_of("HIERARCHY ROOT a {\n} "), "line 1: the joint has no OFFSET");
     EXPECT_EQ(fault_of(changed(kArm, "}\n}", "}")), "line 7: expected '}', found the end of the file");
-    EXPECT_EQ(fault_of(changed(kArm, "CHANNELS", "SIZE")), "line 5: expected 'OFFSET', 'CHANNELS', 'JOINT' or '}', found 'SIZE'");
-    EXPECT_EQ(fault_of(changed(kArm, "JOINT", "ROOT")), "line 6: expected 'OFFSET', 'CHANNELS', 'JOINT' or '}', found 'ROOT'");
+    EXPECT_EQ(fault_of(changed(kArm, "CHANNELS", "SIZE")),
+              "line 5: expected 'OFFSET', 'CHANNELS', 'JOINT' or '}', found 'SIZE'");
+    EXPECT_EQ(fault_of(changed(kArm, "JOINT", "ROOT")),
+              "line 6: expected 'OFFSET', 'CHANNELS', 'JOINT' or '}', found 'ROOT'");
     EXPECT_EQ(fault_of(changed(kArm, "2 3", "2 3,5")), "line 4: expected a number, found '3,5'");
     EXPECT_EQ(fault_of(changed(kArm, "2 3", "2 nan")), "line 4: the number 'nan' is implausibly large");
     EXPECT_EQ(fault_of(changed(kArm, "2 3", "2 3 OFFSET")), "line 4: the joint has two OFFSETs");
@@ -100,7 +102,8 @@ TEST(ImportBvh, FaultsNameTheirLine) {
     EXPECT_EQ(fault_of(changed(kArm, "Yposition", "Yscale")),
               "line 5: expected a channel such as 'Xposition' or 'Zrotation', found 'Yscale'");
     EXPECT_EQ(fault_of(changed(kArm, "Xrotation", "zROTATION")), "line 5: the joint has the channel 'zROTATION' twice");
-    EXPECT_EQ(fault_of(kArm + "MOTION Frames: 1e9"), "line 8: number of frames: expected a whole number from 0 to 4194304");
+    EXPECT_EQ(fault_of(kArm + "MOTION Frames: 1e9"),
+              "line 8: number of frames: expected a whole number from 0 to 4194304");
     EXPECT_EQ(fault_of(kArm + "MOTION Frames: 2 Frame Time: 0"),
               "line 8: the time of a frame must be between 0.000001 s and 1,000,000 s");
     EXPECT_EQ(fault_of(kArm + kMotion + "1 2 3 4 5\n1 2"), "line 12: expected a number, found the end of the file");

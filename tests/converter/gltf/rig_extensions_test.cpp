@@ -74,6 +74,41 @@ TEST(GltfRigExtensions, NodesBecomeJoints) {
     EXPECT_EQ(import->extensions, "");
 }
 
+TEST(GltfRigExtensions, NodesHaveRoles) {
+    const auto with_roles = [](const Json& first, const Json& second) {
+        Gltf gltf = make_arm();
+        gltf.json["nodes"][2]["extensions"]["BENDY_joint_role"] = first;
+        gltf.json["nodes"][3]["extensions"]["BENDY_joint_role"] = second;
+        return gltf.import();
+    };
+    const Json tail{{"role", "tail"}, {"place", 3}};
+    const Import import = with_roles({{"role", "leftLowerArm"}}, tail);
+    EXPECT_EQ(warning_of(import), "");
+    ASSERT_EQ(import->roles.size(), 2u);
+    EXPECT_EQ(import->roles[0].joint, 1u);
+    EXPECT_EQ(import->roles[0].role, static_cast<std::uint16_t>(Role::left_lower_arm));
+    EXPECT_EQ(import->roles[0].place, 0u);
+    EXPECT_EQ(import->roles[1].role, static_cast<std::uint16_t>(Role::tail));
+    EXPECT_EQ(import->roles[1].place, 3u);
+    EXPECT_EQ(import->joints[1].extensions, "");
+
+    const auto warning = [&](const Json& role) {
+        const Import faulty = with_roles(role, tail);
+        EXPECT_EQ(faulty->roles.size(), 1u) << role.dump();
+        return warning_of(faulty);
+    };
+    const std::string here = "nodes[2].extensions.BENDY_joint_role";
+    EXPECT_EQ(warning(3), here + ": role left out: it must be an object, not 3");
+    EXPECT_EQ(warning(Json::object()), here + ".role: role left out: it is required and missing");
+    EXPECT_TRUE(
+        warning({{"role", "none"}}).starts_with(here + ".role: role left out: 'none' is none of hips, spine, "));
+    EXPECT_TRUE(warning({{"role", "left_hand"}}).starts_with(here + ".role: role left out: 'left_hand' is none of "));
+    EXPECT_EQ(warning({{"role", "tail"}}), here + ".place: role left out: it is required and missing");
+    EXPECT_EQ(warning({{"role", "hips"}, {"place", 1}}), here + ".place: role left out: 1 is not between 0 and 0");
+    EXPECT_EQ(warning_of(with_roles(tail, tail)),
+              "nodes[3].extensions.BENDY_joint_role: role left out: an earlier node has the same role");
+}
+
 TEST(GltfRigExtensions, BadLimitsNameTheirPlace) {
     const std::string here = "nodes[2].extensions.BENDY_joint_limits.limits";
     EXPECT_EQ(warning_of(with_limits(3)), here + ": limits left out: it must be a list, not 3");

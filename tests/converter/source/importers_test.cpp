@@ -59,8 +59,8 @@ TEST(Importers, SuggestedCommandsNameAFileAndNothingElse) {
 }
 
 TEST(Importers, EveryFormatHasOne) {
-    for (const SourceFormat format : {SourceFormat::gltf, SourceFormat::bendy, SourceFormat::x, SourceFormat::md2,
-                                      SourceFormat::bvh})
+    for (const SourceFormat format :
+         {SourceFormat::gltf, SourceFormat::bendy, SourceFormat::x, SourceFormat::md2, SourceFormat::bvh})
         EXPECT_EQ(importer_of(format).format, format);
 }
 

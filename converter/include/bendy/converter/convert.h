@@ -55,8 +55,8 @@ struct ConvertOptions {
 };
 
 /// Converts a glTF file, a bendy file, an X-file, a Quake II model or a Biovision file (recognised by content) to the
-/// bytes of a bendy file. The result passes bendy::validate; `report` lists what it does not hold and the files that were read. Throws
-/// nothing. Keeps no state between calls: threads may convert concurrently.
+/// bytes of a bendy file. The result passes bendy::validate; `report` lists what it does not hold and the files that
+/// were read. Throws nothing. Keeps no state between calls: threads may convert concurrently.
 Result<std::vector<std::byte>, ImportError> convert(const std::filesystem::path& file, const ConvertOptions& options,
                                                     Report& report);
 

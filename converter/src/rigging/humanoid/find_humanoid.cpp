@@ -264,6 +264,8 @@ private:
         // Rigify names the hips `spine`: the joint that carries the legs.
         if (!bones.has(HumanBone::hips) && is_named(legs, {BodyPart::spine})) bones[HumanBone::hips] = legs;
         find_head();
+        // Some skeletons end in a joint `neck`, which turns the head.
+        if (!bones.has(HumanBone::head)) bones[HumanBone::head] = pick(BodyPart::neck, BodySide::none);
         if (!bones.has(HumanBone::head)) return;
         const std::vector<std::uint32_t> path = path_from_hips();
         const auto spine = std::find_if(path.begin(), path.end(), [&](std::uint32_t joint) {

@@ -30,8 +30,7 @@ inline void warn_of_lost_roles(Scene& scene, Report& report) {
                                       });
     scene.roles = std::move(kept);
     if (are_found) return;
-    report.warn(
-        "roles of joints left out: an X-file has no place for them (`bendy rig` writes them to a rig file)");
+    report.warn("roles of joints left out: an X-file has no place for them (`bendy rig` writes them to a rig file)");
 }
 
 }  // namespace bendy::converter

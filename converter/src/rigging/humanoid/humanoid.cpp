@@ -274,6 +274,7 @@ std::string_view NameWords::only_word() const {
     return only;
 }
 
+// NOLINTNEXTLINE(misc-no-recursion): once, with a side in the name
 std::optional<BoneName> read_bone_name(std::string_view name) {
     const NameWords words(name);
     if (words.is_helper() || has_any(words, kFingers)) return std::nullopt;
@@ -292,6 +293,13 @@ std::optional<BoneName> read_bone_name(std::string_view name) {
         return result;
     }
     const std::string_view only = words.only_word();
+    if (result.side == BodySide::none && only.size() > 1 && (only.front() == 'l' || only.front() == 'r')) {
+        const std::string_view part = only.substr(1);  // `rthigh`
+        const bool is_part = part == "arm" || part == "leg" ||
+                             std::any_of(kSpellings.begin(), kSpellings.end(),
+                                         [&](const Spelling& s) { return s.words == part && is_of_a_limb(s.part); });
+        return is_part ? read_bone_name(std::string(1, only.front()) + ' ' + std::string(part)) : std::nullopt;
+    }
     if (result.side == BodySide::none || (only != "arm" && only != "leg")) return std::nullopt;
     result.part = only == "arm" ? BodyPart::arm : BodyPart::leg;
     return result;

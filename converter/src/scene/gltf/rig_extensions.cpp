@@ -193,7 +193,7 @@ private:
     const Document& document_;
     const Skeleton& skeleton_;
     Scene& scene_;
-    std::optional<JointIndex> index_;                           ///< for chains
+    std::optional<JointIndex> index_;                          ///< for chains
     std::set<std::pair<std::uint16_t, std::uint16_t>> roles_;  ///< with their places
 };
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace bendy::converter::gltf_out {
@@ -82,6 +83,10 @@ public:
 
     void write(const Clip& clip, Json& animation, const std::string& place) {
         const float shift = shift_of(clip);
+        moved_.clear();
+        for (const Track& track : clip.tracks) {
+            if (track.path == TrackPath::translation) moved_.insert(track.target);
+        }
         for (std::size_t c = 0; c < clip.curves.size(); ++c) {
             const Curve& curve = clip.curves[c];
             if (is_written_already(curve)) continue;
@@ -127,7 +132,7 @@ private:
     /// Nodes share a camera only if the same curves move it. An expression is part of its joint's track.
     [[nodiscard]] bool is_written_already(const Curve& curve) const {
         if (curve.kind != CurveTarget::joint) return false;
-        if (curve.path == kExpressionPath) return true;
+        if (curve.path == kExpressionPath) return moved_.contains(curve.target);
         if (!curve.path.starts_with(kCameraPath)) return false;
         const Json& node = root_["nodes"][curve.target];
         const auto camera = node.find("camera");
@@ -143,6 +148,7 @@ private:
     }
 
     std::span<const std::uint32_t> node_of_mesh_;
+    std::unordered_set<std::uint32_t> moved_;                        ///< joints that the clip translates
     std::unordered_map<std::size_t, std::uint32_t> node_of_camera_;  ///< the first node that uses the camera
     Json& root_;
     Buffer& buffer_;

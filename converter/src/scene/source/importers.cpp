@@ -45,8 +45,12 @@ Imported from_bvh(Buffer bytes, const Path& file, const ConvertOptions& options,
 #endif
 
 constexpr std::array kImporters{
-    Importer{
-        .format = SourceFormat::gltf, .name = "a glTF file", .signature = {}, .suffixes = {".gltf"}, .takes_scene = true, .import = from_gltf},
+    Importer{.format = SourceFormat::gltf,
+             .name = "a glTF file",
+             .signature = {},
+             .suffixes = {".gltf"},
+             .takes_scene = true,
+             .import = from_gltf},
     Importer{.format = SourceFormat::gltf,
              .name = "a glTF binary file",
              .signature = "glTF",
