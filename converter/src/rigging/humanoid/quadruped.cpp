@@ -157,7 +157,9 @@ private:
         const double length = 0.5 * (a.length + b.length);
         const double ratio = a.length / b.length;
         const bool is_level = std::abs(glm::dot(*trunk, *up)) < 0.5;
-        const bool has_trunk = glm::distance(a.root_place, b.root_place) > 0.3 * length;
+        // Some legs begin with a shoulder blade and a pelvis, which meet in the middle of the back.
+        const bool has_trunk = std::max(glm::distance(a.root_place, b.root_place),
+                                        glm::distance(a.foot_place, b.foot_place)) > 0.3 * length;
         const bool is_one_ground = std::abs(glm::dot(a.foot_place - b.foot_place, *up)) < kGround * length;
         const bool agrees = std::abs(glm::dot(a.chains->across, b.chains->across)) > 0.9 &&
                             std::abs(glm::dot(a.chains->across, *trunk)) < 0.3;
