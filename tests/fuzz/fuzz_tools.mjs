@@ -73,6 +73,7 @@ const convertOptions = () =>
     instances: true,
     mergeClips: true,
     ticksPerSecond: oneOf([1, 1e-300, 4800]),
+    unit: oneOf([1, 1e-300, 0.0254]),
   });
 
 /** Each call, and what it is made with, for a finding. */

@@ -46,7 +46,7 @@ function rigOf(names: string[], main: string): string | undefined {
 }
 
 /** A message without its clause about an option of `convert`, which the page does not have. */
-const withoutOption = (message: string): string => message.replace(/ unless instances are made \(instances\)$|; ticksPerSecond sets .*$|: mergeClips makes .*$/, '');
+const withoutOption = (message: string): string => message.replace(/ unless instances are made \(instances\)$|; (?:ticksPerSecond|unit) sets .*$|: mergeClips makes .*$/, '');
 
 async function read({ files, main, autoRig }: Request & { kind: 'read' }, progress: (share: number) => void): Promise<Answers['read']> {
   const given = files[main]!;

@@ -110,6 +110,13 @@ TEST(ImportBvh, FaultsNameTheirLine) {
     EXPECT_EQ(fault_of(kArm + kMotion + "1e15 2 3 4 5\n1 2 3 x"), "line 12: expected a number, found 'x'");
 }
 
+TEST(ImportBvh, AUnitIsALength) {
+    Report report;
+    const auto scene = import_bvh(kArm, "arm.bvh", {-1.0}, report);
+    ASSERT_FALSE(scene);
+    EXPECT_EQ(scene.error().message, "a unit is longer than 0 m");
+}
+
 TEST(ImportBvh, ASmallFileCannotAskForMuchMemory) {
     std::string deep = "HIERARCHY ROOT a { OFFSET 0 0 0 ";
     for (int i = 0; i < 200'000; ++i) deep += "End{";

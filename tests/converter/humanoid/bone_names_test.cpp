@@ -39,6 +39,11 @@ TEST(BoneNames, AreReadAsToolsWriteThem) {
     expect("J_Bip_C_UpperChest", BodyPart::chest, kMiddle);
     expect("Palm2.L", BodyPart::hand, kLeft);
     EXPECT_EQ(read_bone_name("Palm2.L")->rank, 1);
+    expect("rthigh", BodyPart::upper_leg, kRight);
+    expect("lshldr", BodyPart::upper_arm, kLeft);
+    expect("larm", BodyPart::arm, kLeft);
+    expect("LHipJoint", BodyPart::upper_leg, kLeft);
+    EXPECT_EQ(read_bone_name("LHipJoint")->rank, 1);
 }
 
 TEST(BoneNames, HelpersFingersAndOthersHaveNone) {

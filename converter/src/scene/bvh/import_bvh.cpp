@@ -314,6 +314,8 @@ private:
 Result<Scene, ImportError> import_bvh(std::string_view text, const std::filesystem::path& file,
                                       const BvhOptions& options, Report& report) {
     return without_throwing<Scene>([&]() -> Result<Scene, ImportError> {
+        if (!(options.unit >= 0.0 && options.unit <= bvh::kLargest))
+            return ImportError{{}, "a unit is longer than 0 m"};
         Scene scene = bvh::Importer(text, file, options.unit).run(report);
         if (options.unit == 0.0) report.warn("units are taken as centimetres; --unit sets another length");
         return scene;
