@@ -16,7 +16,7 @@ const std::string kArm =
     "{\n"
     "OFFSET 1 2 3\n"
     "CHANNELS 4 Yposition Zrotation Xrotation Yrotation\n"
-    "JOINT Hand { OFFSET 0 5 0 CHANNELS 1 Xposition End Site { OFFSET 0 1 0 } }\n"
+    "JOINT Hand{OFFSET 0 5 0 CHANNELS 1 Xposition End Site { OFFSET 0 1 0}}\n"
     "}\n";
 const std::string kMotion =
     "MOTION\n"

@@ -39,7 +39,11 @@ bool is(std::string_view word, std::string_view expected) {
                       [](char a, char b) { return small(a) == b; });
 }
 
-/// The text as words. Line ends mean no more than spaces: files differ in where they break lines.
+bool is_brace(char c) {
+    return c == '{' || c == '}';
+}
+
+/// The text as words; a brace is one. Line ends mean no more than spaces: files differ in where they break lines.
 class Words {
 public:
     explicit Words(std::string_view text) : text_(text) {
@@ -50,7 +54,8 @@ public:
     std::string_view next() {
         skip_space();
         const std::size_t begin = at_;
-        while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
+        while (at_ < text_.size() && !is_space(text_[at_]) && !is_brace(text_[at_])) ++at_;
+        if (at_ == begin && at_ < text_.size()) ++at_;
         return text_.substr(begin, at_ - begin);
     }
     bool is_at_end() {
