@@ -192,7 +192,7 @@ TEST(GltfRigExtensions, WhatEveryObjectMayHaveIsNamed) {
     const Import import = gltf.import();
     EXPECT_EQ(import->joints[1].constraints.size(), 1u);
     EXPECT_EQ(import->chains.size(), 1u);
-    EXPECT_EQ(import.warned("further data of limits and chains left out"), 4u);
+    EXPECT_EQ(import.warned("further data of limits, roles and chains left out"), 4u);
 }
 
 TEST(GltfRigExtensions, InTheWrongPlaceTheyAreKeptAsTheyAre) {
