@@ -1,3 +1,4 @@
+#include <bendy/edit/clips.h>
 #include <bendy/edit/edit.h>
 
 #include "format/edit_file.h"
@@ -314,6 +315,16 @@ void edit_in_every_way(const Buffer& file, const Buffer& good) {
     look(set_role(file, {Role::tail, 1, "#1"}, log));
     look(rename(file, {Named::joint, {{"*", "x*"}}}, log));
     look(extract(file, "#1", log));
+    for (const auto& [word, text] :
+         {std::pair("keep-clip", "#0"), std::pair("copy-clip", "#0=copy"), std::pair("trim", "*=0.6..0.9"),
+          std::pair("resample", "*@30"), std::pair("mirror", "*"), std::pair("loop", "*=0.2"),
+          std::pair("root-motion", "*=#0.."), std::pair("root-motion", "*=#2..#0")}) {
+        const std::string said = text;
+        const auto change = parse_clip_change(word, std::span(&said, 1));
+        ASSERT_TRUE(change) << change.error().message;
+        look(change_clips(file, *change, log));
+    }
+    look(limit_influences(file, 1, log));
     look(merge_clips(file, good, SameName::number, log));
     look(merge_clips(good, file, SameName::number, log));
 }

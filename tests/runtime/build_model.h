@@ -116,6 +116,7 @@ inline Buffer build_file(const ModelSpec& spec) {
     version.joints = static_cast<std::uint32_t>(spec.joints.size());
     version.meshes = static_cast<std::uint32_t>(spec.meshes.size());
     for (const MeshSpec& mesh : spec.meshes) version.vertices += mesh.positions.size();
+    for (const Node& node : spec.more) version.clips += node.id == FourCC("CYCL") ? 1 : 0;
     writer.leaf(FourCC("VERS"), bytes_of(version));
     writer.begin(FourCC("OBJE"));
     std::vector<std::uint32_t> open;

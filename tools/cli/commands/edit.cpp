@@ -5,6 +5,7 @@
 #include "files/output.h"
 #include "reports/messages.h"
 
+#include <bendy/edit/clips.h>
 #include <bendy/edit/edit.h>
 #include <bendy/format/diagnostics.h>
 
@@ -16,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <ostream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,8 +31,7 @@ using Buffer = std::vector<std::byte>;
 struct EditArguments {
     std::filesystem::path input;
     std::filesystem::path output;
-    std::vector<std::string> strips, renames, joint_renames, roles, extracts;
-    std::vector<std::filesystem::path> joint_tables, merges;
+    std::map<std::string, std::vector<std::string>> texts;  // of each option that makes steps, in its order
     std::filesystem::path root;
     std::string same_name = "error";
     bool in_place = false;
@@ -79,27 +80,32 @@ public:
     Steps(const EditArguments& arguments, Outputs& outputs) : arguments_(arguments), outputs_(outputs) {}
 
     void add(const std::string& option) {
-        const std::size_t number = seen_[option]++;
-        if (option == "--strip") return add_strip(arguments_.strips[number]);
-        if (option == "--rename") return add_rename(arguments_.renames[number]);
-        if (option == "--rename-joint")
-            return add_pair("--rename-joint", edit::Named::joint, arguments_.joint_renames[number]);
-        if (option == "--rename-joints") return add_table(arguments_.joint_tables[number]);
-        if (option == "--role") return add_role(arguments_.roles[number]);
-        if (option == "--merge") return add_merge(arguments_.merges[number]);
-        if (option == "--extract") return add_extract(arguments_.extracts[number]);
+        const auto texts = arguments_.texts.find(option);
+        if (texts == arguments_.texts.end()) return;
+        const std::string& text = texts->second[seen_[option]++];
+        const auto maker = kMakers.find(option);
+        if (maker == kMakers.end()) return add_clip_change(option, text);
+        (this->*maker->second)(text);
     }
     std::vector<Step> take() {
-        close_rename();
+        close();
         return std::move(steps_);
     }
 
 private:
+    using Maker = void (Steps::*)(const std::string& text);
+    static const std::map<std::string, Maker> kMakers;  // of the options that are not changes of clips
+
+    template <class Work>
+    void push(Work work) {
+        close();
+        steps_.emplace_back(std::move(work));
+    }
+
     void add_strip(const std::string& text) {
-        close_rename();
         const auto what = edit::parse_strip(text);
         if (!what) throw CLI::ValidationError("--strip", what.error().message);
-        steps_.emplace_back([what = *what](Bytes file, edit::Log& log) { return edit::strip(file, what, log); });
+        push([what = *what](Bytes file, edit::Log& log) { return edit::strip(file, what, log); });
     }
 
     void add_rename(const std::string& text) {
@@ -107,41 +113,68 @@ private:
         add_pair("--rename", kind, pair);
     }
 
+    void add_joint_rename(const std::string& text) { add_pair("--rename-joint", edit::Named::joint, text); }
+
     void add_pair(const char* option, edit::Named kind, const std::string& text) {
         const auto pair = edit::parse_pair(text);
         if (!pair) throw CLI::ValidationError(option, pair.error().message);
-        if (!rename_.names.empty() && rename_.kind != kind) close_rename();
+        if (rename_.names.empty() || rename_.kind != kind) close();
         rename_.kind = kind;
         rename_.names.push_back(*pair);
     }
 
-    void add_table(const std::filesystem::path& path) {
-        close_rename();
+    void add_table(const std::string& text) {
+        const std::filesystem::path path(text);
         outputs_.reads(path);
-        steps_.emplace_back([path](Bytes file, edit::Log& log) { return edit::rename(file, read_table(path), log); });
+        push([path](Bytes file, edit::Log& log) { return edit::rename(file, read_table(path), log); });
     }
 
-    void close_rename() {
-        if (rename_.names.empty()) return;
-        steps_.emplace_back(
-            [rename = std::move(rename_)](Bytes file, edit::Log& log) { return edit::rename(file, rename, log); });
+    /// Makes one step of the options that belong together: renames of one kind, clips to keep.
+    void close() {
+        if (!rename_.names.empty()) {
+            steps_.emplace_back(
+                [rename = std::move(rename_)](Bytes file, edit::Log& log) { return edit::rename(file, rename, log); });
+        }
+        if (!kept_clips_.clips.empty()) {
+            steps_.emplace_back([kept = std::move(kept_clips_)](Bytes file, edit::Log& log) {
+                return edit::change_clips(file, kept, log);
+            });
+        }
         rename_ = {};
+        kept_clips_ = {};
+    }
+
+    void add_clip_change(const std::string& option, const std::string& text) {
+        const auto what = edit::parse_clip_change(option.substr(2), std::span(&text, 1));
+        if (!what) throw CLI::ValidationError(option, what.error().message);
+        if (what->work == edit::ClipWork::keep) {
+            if (kept_clips_.clips.empty()) close();
+            kept_clips_.clips.push_back(text);
+            return;
+        }
+        push([what = *what](Bytes file, edit::Log& log) { return edit::change_clips(file, what, log); });
+    }
+
+    void add_influences(const std::string& text) {
+        std::uint32_t most = 0;
+        if (!CLI::detail::lexical_cast(text, most) || most == 0)
+            throw CLI::ValidationError("--influences", '"' + text + "\" is not a number of influences, 1 or more");
+        push([most](Bytes file, edit::Log& log) { return edit::limit_influences(file, most, log); });
     }
 
     void add_role(const std::string& text) {
-        close_rename();
         const auto what = edit::parse_role(text);
         if (!what) throw CLI::ValidationError("--role", what.error().message);
-        steps_.emplace_back([what = *what](Bytes file, edit::Log& log) { return edit::set_role(file, what, log); });
+        push([what = *what](Bytes file, edit::Log& log) { return edit::set_role(file, what, log); });
     }
 
-    void add_merge(const std::filesystem::path& path) {
-        close_rename();
+    void add_merge(const std::string& text) {
+        const std::filesystem::path path(text);
         const auto same_name = edit::parse_same_name(arguments_.same_name);
         if (!same_name) throw CLI::ValidationError("--same-name", same_name.error().message);
         outputs_.reads(path);
-        steps_.emplace_back([path, root = arguments_.root, same_name = *same_name, &outputs = outputs_](
-                                Bytes file, edit::Log& log) -> edit::Edited {
+        push([path, root = arguments_.root, same_name = *same_name, &outputs = outputs_](
+                 Bytes file, edit::Log& log) -> edit::Edited {
             const Buffer other = read_other(path, root, outputs);
             const auto first = log.warnings.size();
             auto merged = edit::merge_clips(file, other, same_name, log);
@@ -155,16 +188,25 @@ private:
     }
 
     void add_extract(const std::string& joint) {
-        close_rename();
-        steps_.emplace_back([joint](Bytes file, edit::Log& log) { return edit::extract(file, joint, log); });
+        push([joint](Bytes file, edit::Log& log) { return edit::extract(file, joint, log); });
     }
 
     const EditArguments& arguments_;
     Outputs& outputs_;
     std::map<std::string, std::size_t> seen_;
     edit::Rename rename_;
+    edit::ClipChange kept_clips_;
     std::vector<Step> steps_;
 };
+
+const std::map<std::string, Steps::Maker> Steps::kMakers{{"--strip", &Steps::add_strip},
+                                                         {"--rename", &Steps::add_rename},
+                                                         {"--rename-joint", &Steps::add_joint_rename},
+                                                         {"--rename-joints", &Steps::add_table},
+                                                         {"--role", &Steps::add_role},
+                                                         {"--merge", &Steps::add_merge},
+                                                         {"--extract", &Steps::add_extract},
+                                                         {"--influences", &Steps::add_influences}};
 
 void print_change(const EditArguments& arguments, std::uint64_t before, std::uint64_t after) {
     std::ostream& out = print_size(arguments.output, after);
@@ -213,20 +255,21 @@ void add_edit(CLI::App& program) {
     command->add_option("-o,--output", arguments->output, "where to write; never FILE itself");
     command->add_flag("-i,--in-place", arguments->in_place,
                       "replace FILE, a bendy file, with the result; use instead of --output");
-    const auto add = [&](const char* name, auto& values, const std::string& help) {
-        command->add_option(name, values, help)->allow_extra_args(false);
+    const auto add = [&](const std::string& name, const std::string& help) {
+        command->add_option(name, arguments->texts[name], help)->allow_extra_args(false);
     };
-    add("--strip", arguments->strips,
+    add("--strip",
         "take out all " + edit::strip_words() +
             "; or one: texture:NAME, clip:Run, mesh:Hat, target:Smile, chain:Arm, constraint:JOINT, chunk:ID");
-    add("--rename-joint", arguments->joint_renames, "OLD=NEW; * matches anything: 'mixamorig:*=*' removes a prefix");
-    add("--rename-joints", arguments->joint_tables, R"(a JSON file, {"old": "new", ...})");
-    add("--rename", arguments->renames,
-        "KIND:OLD=NEW; KIND is joint, clip, chain, mesh, target, material, texture or object");
-    add("--role", arguments->roles,
+    add("--rename-joint", "OLD=NEW; * matches anything: 'mixamorig:*=*' removes a prefix");
+    add("--rename-joints", R"(a JSON file, {"old": "new", ...})");
+    add("--rename", "KIND:OLD=NEW; KIND is joint, clip, chain, mesh, target, material, texture or object");
+    add("--role",
         "ROLE=JOINT: what a joint is in the body, as in left_hand=Hand.L or tail:2=Tail3; without JOINT, nobody");
-    add("--merge", arguments->merges,
-        "add the clips of another file (bendy or glTF); tracks go to the joints of the same name");
+    for (const edit::ClipWord& word : edit::clip_words())
+        add("--" + std::string(word.word), std::string(word.shape) + ": " + std::string(word.help));
+    add("--influences", "N: at most N influences per vertex, the largest, scaled to the same sum");
+    add("--merge", "add the clips of another file (bendy or glTF); tracks go to the joints of the same name");
     command
         ->add_option("--same-name", arguments->same_name,
                      "what --merge does if a clip of that name exists: error; replace the existing clip; or number the "
@@ -234,13 +277,12 @@ void add_edit(CLI::App& program) {
         ->check(one_of({"error", "replace", "number"}))
         ->capture_default_str();
     add_root(*command, arguments->root);
-    add("--extract", arguments->extracts,
-        "make a character of this joint and its descendants; it keeps its place in every clip");
+    add("--extract", "make a character of this joint and its descendants; it keeps its place in every clip");
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
     command->footer(
         "Names may have * and ?. A number may stand for a name: 0, or #0 beside something called 0, which is =0 then.\n"
-        "Options are applied in their order; renames of one kind that follow one another happen at once. What is not\n"
-        "touched keeps its bytes, unknown chunks too.\n"
+        "Options are applied in their order; renames of one kind that follow one another happen at once, and so does\n"
+        "--keep-clip. What is not touched keeps its bytes, unknown chunks too.\n"
         "Example: bendy edit fox.bendy -o out.bendy --strip textures --merge run.glb --rename clip:mixamo.com=Run");
     command->callback([arguments, command] {
         if (arguments->output.empty() == !arguments->in_place)
@@ -253,8 +295,8 @@ void add_edit(CLI::App& program) {
         for (const CLI::Option* option : command->parse_order()) steps.add(option->get_name());
         const auto taken = steps.take();
         if (taken.empty()) {
-            throw CLI::ValidationError("edit",
-                                       "there is nothing to do: --strip, --rename-joint, --role, --merge, --extract");
+            throw CLI::ValidationError(
+                "edit", "there is nothing to do: --strip, --rename-joint, --role, --trim, --merge, --extract, ...");
         }
         run(*arguments, taken, outputs);
     });

@@ -306,16 +306,7 @@ private:
         rewrite_.overwrite(tree_.find(clip_.chunk, FourCC("CINF")), offsetof(ClipRecord, frame_rate), bytes_of(0.0f));
     }
 
-    void put(FourCC id, Bytes payload) {
-        const std::uint32_t chunk = tree_.find(clip_.chunk, id);
-        if (payload.empty()) {
-            if (chunk != kNone) rewrite_.remove(chunk);
-        } else if (chunk != kNone) {
-            rewrite_.replace(chunk, payload);
-        } else {
-            rewrite_.append(clip_.chunk, encode_leaf(id, 0, Codec::zstd, 0, sizeof(float), payload));
-        }
-    }
+    void put(FourCC id, Bytes payload) { put_leaf(tree_, clip_.chunk, id, payload, rewrite_); }
 
     static constexpr std::uint64_t kKibibyte = 1024;
 

@@ -1,5 +1,6 @@
 #include <bendy/edit/edit.h>
 
+#include <optional>
 #include <utility>
 
 namespace bendy::edit {
@@ -25,6 +26,20 @@ bool matches(std::string_view pattern, std::string_view name) {
     }
     while (p < pattern.size() && pattern[p] == '*') ++p;
     return p == pattern.size();
+}
+
+std::optional<std::string> renamed(const std::pair<std::string, std::string>& pair, std::string_view name) {
+    const auto& [before, after] = pair;
+    const std::size_t star = before.find('*');
+    if (name == before || star == std::string::npos) return name == before ? std::optional(after) : std::nullopt;
+    const std::string_view head = std::string_view(before).substr(0, star);
+    const std::string_view tail = std::string_view(before).substr(star + 1);
+    if (name.size() < head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail))
+        return std::nullopt;
+    const std::string_view middle = name.substr(head.size(), name.size() - head.size() - tail.size());
+    const std::size_t place = after.find('*');
+    if (place == std::string::npos) return after;
+    return after.substr(0, place) + std::string(middle) + after.substr(place + 1);
 }
 
 Result<std::vector<std::size_t>, Problem> find_named(std::span<const std::string_view> names, std::string_view wanted,

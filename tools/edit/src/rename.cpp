@@ -26,21 +26,6 @@ struct Thing {
     std::size_t group = 0;    // things of one object, whose names should differ
 };
 
-/// Returns the name with the pair applied, where `*` keeps its text; nothing if the name does not match.
-std::optional<std::string> renamed(const std::pair<std::string, std::string>& pair, std::string_view name) {
-    const auto& [before, after] = pair;
-    const std::size_t star = before.find('*');
-    if (name == before || star == std::string::npos) return name == before ? std::optional(after) : std::nullopt;
-    const std::string_view head = std::string_view(before).substr(0, star);
-    const std::string_view tail = std::string_view(before).substr(star + 1);
-    if (name.size() < head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail))
-        return std::nullopt;
-    const std::string_view middle = name.substr(head.size(), name.size() - head.size() - tail.size());
-    const std::size_t place = after.find('*');
-    if (place == std::string::npos) return after;
-    return after.substr(0, place) + std::string(middle) + after.substr(place + 1);
-}
-
 class Renamer {
 public:
     Renamer(const Source& source, const Rename& what, Log& log)

@@ -176,6 +176,17 @@ Buffer encode_leaf(FourCC id, std::uint16_t flags, Codec codec, std::uint16_t he
     return whole_leaf(id, payload, plain);
 }
 
+void put_leaf(const ChunkTree& tree, std::uint32_t container, FourCC id, Bytes payload, Rewrite& rewrite) {
+    const std::uint32_t chunk = tree.find(container, id);
+    if (payload.empty()) {
+        if (chunk != kNone) rewrite.remove(chunk);
+    } else if (chunk != kNone) {
+        rewrite.replace(chunk, payload);
+    } else {
+        rewrite.append(container, encode_leaf(id, 0, Codec::zstd, 0, sizeof(float), payload));
+    }
+}
+
 Edited finish(const Rewrite& rewrite) {
     Buffer file = rewrite.write();
     auto tree = read_chunk_tree(file);

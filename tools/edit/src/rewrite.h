@@ -85,6 +85,10 @@ Buffer whole_leaf(FourCC id, Bytes payload, std::uint16_t flags = 0);
 Buffer encode_leaf(FourCC id, std::uint16_t flags, Codec codec, std::uint16_t head, std::uint16_t stride,
                    Bytes payload);
 
+/// Gives a container's leaf this payload: replaces it, encoded as before, or adds one at the end, with zstd; removes it
+/// if the payload is empty.
+void put_leaf(const ChunkTree& tree, std::uint32_t container, FourCC id, Bytes payload, Rewrite& rewrite);
+
 /// Returns the file with its changes and with the counts in VERS updated; a problem if it would not be valid.
 Edited finish(const Rewrite& rewrite);
 

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -90,6 +91,9 @@ struct Rename {
     std::vector<std::pair<std::string, std::string>> names;
     bool all_must_match = true;  ///< if false, a pair without a match is a warning instead of a problem
 };
+
+/// Returns the name with a pair of Rename::names applied; nothing if it does not match.
+std::optional<std::string> renamed(const std::pair<std::string, std::string>& pair, std::string_view name);
 
 /// Parses "OLD=NEW", split at the first `=` that follows a name: "=0=Run" renames what is called "0".
 Result<std::pair<std::string, std::string>, Problem> parse_pair(std::string_view text);
