@@ -262,6 +262,22 @@ def test_edit(mannequin, tmp_path):
     assert 0 < arm.vertices < model.vertices
 
 
+def test_clips_are_changed(mannequin):
+    edit = bendy.edit(mannequin).keep_clips("Walk").copy_clip("Walk", "Mirrored").mirror("Mirrored").trim("Walk", 0.25, 0.75)
+    walk, mirrored = (edit.resample("Walk", 10).loop("Walk", 0.1).limit_influences(2).open()).clips
+    assert (walk.name, walk.start, walk.end, walk.loop) == ("Walk", 0, 0.5, True) and mirrored.name == "Mirrored"
+    assert mirrored.end > 0.5
+    text = "mixamorig:Hips"
+    assert "taken out" in bendy.edit(mannequin).root_motion("Walk", text).done[-1] or edit.done
+    for wrong in (lambda e: e.trim("Walk", 2, 1), lambda e: e.loop("Walk", 0), lambda e: e.resample("Walk", float("nan")),
+                  lambda e: e.keep_clips("")):
+        with pytest.raises(ValueError):
+            wrong(edit)
+    for wrong in (lambda e: e.trim("Walk", 0, 9), lambda e: e.mirror("Wlak"), lambda e: e.root_motion("Walk", "a", "b")):
+        with pytest.raises(bendy.EditError):
+            wrong(edit)
+
+
 def test_edits_that_fail_change_nothing(mannequin):
     edit = bendy.edit(mannequin)
     with pytest.raises(bendy.EditError, match="Wlak"):

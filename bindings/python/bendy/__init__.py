@@ -178,6 +178,45 @@ class Edit(File):
         """Keeps the joint with this name and its descendants, with everything that belongs to them."""
         return self._take(_bendy.extract(self._source, joint))
 
+    def _change_clips(self, word, *texts):
+        return self._take(_bendy.change_clips(self._source, word, list(texts)))
+
+    def keep_clips(self, *clips):
+        """Takes out all clips but these. A clip, here and in the methods below, is a name, a pattern as in "Walk*", or a number."""
+        return self._change_clips("keep-clip", *(str(clip) for clip in clips))
+
+    def copy_clip(self, clip, name):
+        """Adds a second clip with the same content, to change one of the two. With a pattern, name may have a * too."""
+        return self._change_clips("copy-clip", f"{clip}={name}")
+
+    def trim(self, clip, start=None, end=None):
+        """Keeps the part from start to end, seconds on the clip's time line; it then begins at 0. None: as far as the clip goes."""
+        start, end = ("" if seconds is None else repr(float(seconds)) for seconds in (start, end))
+        return self._change_clips("trim", f"{clip}={start}..{end}")
+
+    def resample(self, clip, rate):
+        """Replaces the keys with linear ones, rate per second; tracks that step keep theirs."""
+        return self._change_clips("resample", f"{clip}@{float(rate)!r}")
+
+    def mirror(self, clip):
+        """Left does what right did. Joints are paired by their roles or by names such as arm.L and arm.R."""
+        return self._change_clips("mirror", str(clip))
+
+    def loop(self, clip, seconds):
+        """Lets the clip repeat: during its last seconds it drifts to the pose of its start."""
+        return self._change_clips("loop", f"{clip}={float(seconds)!r}")
+
+    def root_motion(self, clip, source="", to=""):
+        """Gives the movement over the ground (x and z) of the joint source to the joint `to` above it; without it, takes it out.
+
+        source: if empty, the highest joint that moves, down to the one whose role is hips.
+        """
+        return self._change_clips("root-motion", f"{clip}={source}..{to}")
+
+    def limit_influences(self, most):
+        """Leaves each vertex its `most` largest influences at most, scaled to the same sum."""
+        return self._take(_bendy.limit_influences(self._source, most))
+
     def __repr__(self):
         return f"<bendy.Edit: {len(self.data)} bytes>"
 

@@ -11,6 +11,7 @@
 #include <bendy/converter/export.h>
 #include <bendy/converter/source_format.h>
 #include <bendy/diff/compare_files.h>
+#include <bendy/edit/clips.h>
 #include <bendy/edit/edit.h>
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
@@ -274,6 +275,16 @@ py::tuple extract_joint(const SourcePointer& source, const std::string& joint) {
     return edited(source, [&](Bytes bytes, edit::Log& log) { return edit::extract(bytes, joint, log); });
 }
 
+py::tuple change_clips(const SourcePointer& source, const std::string& word, const std::vector<std::string>& texts) {
+    const auto what = edit::parse_clip_change(word, texts);
+    if (!what) throw py::value_error(what.error().message);
+    return edited(source, [&](Bytes bytes, edit::Log& log) { return edit::change_clips(bytes, *what, log); });
+}
+
+py::tuple limit_influences(const SourcePointer& source, std::uint32_t most) {
+    return edited(source, [&](Bytes bytes, edit::Log& log) { return edit::limit_influences(bytes, most, log); });
+}
+
 // Comparison.
 
 /// Reads a file for a comparison. Raises the first fault of the file.
@@ -450,6 +461,10 @@ void bind_tools(py::module_& module) {
     module.def("merge_clips", &merge_clips, py::arg("source"), py::arg("other"), py::arg("same_name"),
                "See bendy.Edit.merge_clips.");
     module.def("extract", &extract_joint, py::arg("source"), py::arg("joint"), "See bendy.Edit.extract.");
+    module.def("change_clips", &change_clips, py::arg("source"), py::arg("word"), py::arg("texts"),
+               "See bendy.Edit.trim, and others.");
+    module.def("limit_influences", &limit_influences, py::arg("source"), py::arg("most"),
+               "See bendy.Edit.limit_influences.");
     module.def("diff", &diff_sources, py::arg("a"), py::arg("b"), "See bendy.diff.");
     module.def("compare", &compare_characters, py::arg("a"), py::arg("b"), py::arg("tolerance"), "See bendy.diff.");
     module.def("dump", &dump_source, py::arg("source"), py::arg("decode"), "See bendy.dump.");

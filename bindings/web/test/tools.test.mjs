@@ -194,6 +194,9 @@ for (const file of examples) {
       [await tools.strip(bytes, 'materials'), ['--strip', 'materials']],
       [await tools.rename(bytes, 'joint', { [joint]: 'New' }), ['--rename-joint', `${joint}=New`]],
       [await tools.extract(bytes, joint), ['--extract', joint]],
+      [await tools.changeClips(bytes, 'resample', '*@12'), ['--resample', '*@12']],
+      [await tools.changeClips(bytes, 'keep-clip', ['#0']), ['--keep-clip', '#0']],
+      [await tools.limitInfluences(bytes, 2), ['--influences', '2']],
       [await tools.mergeClips(bytes, bytes, { sameName: 'number' }), ['--same-name', 'number', '--merge', exact]],
     ];
     for (const [{ bytes: actual, done }, args] of edits) {
@@ -202,6 +205,7 @@ for (const file of examples) {
     }
     await assert.rejects(tools.mergeClips(bytes, bytes), { kind: 'edit', code: 'EDIT' });
     await assert.rejects(tools.strip(bytes, 'hats'), { kind: 'bad_argument' });
+    await assert.rejects(tools.changeClips(bytes, 'trim', 'Run'), { kind: 'bad_argument' });
   });
 
   test(`${name}: differences are the program's`, async () => {

@@ -16,6 +16,7 @@
 #include <bendy/converter/import.h>
 #include <bendy/converter/source_format.h>
 #include <bendy/diff/compare_files.h>
+#include <bendy/edit/clips.h>
 #include <bendy/edit/edit.h>
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
@@ -291,6 +292,17 @@ Json run_extract(const Json& request, Made& made) {
     return edited(request, made, [&](Bytes bytes, edit::Log& log) { return edit::extract(bytes, joint, log); });
 }
 
+Json run_change_clips(const Json& request, Made& made) {
+    const std::vector<std::string> texts = request.at("texts");
+    const auto what = parsed(edit::parse_clip_change(text_of(request, "work"), texts));
+    return edited(request, made, [&](Bytes bytes, edit::Log& log) { return edit::change_clips(bytes, what, log); });
+}
+
+Json run_limit_influences(const Json& request, Made& made) {
+    const std::uint32_t most = request.at("most");
+    return edited(request, made, [&](Bytes bytes, edit::Log& log) { return edit::limit_influences(bytes, most, log); });
+}
+
 std::vector<std::uint32_t> vertices_at(Bytes bytes, float share) {
     if (!(share < 1.0f)) return {};
     const auto model = Model::from_memory(bytes);
@@ -374,12 +386,20 @@ struct Tool {
     std::string_view name;
     Json (*run)(const Json& request, Made& made);
 };
-constexpr std::array kTools{Tool{"convert", run_convert},   Tool{"validate", run_validate},
-                            Tool{"inspect", run_inspect},   Tool{"summary", run_summary},
-                            Tool{"page", run_inspect_page}, Tool{"dump", run_dump},
-                            Tool{"assemble", run_assemble}, Tool{"strip", run_strip},
-                            Tool{"rename", run_rename},     Tool{"mergeClips", run_merge_clips},
-                            Tool{"extract", run_extract},   Tool{"export", run_export},
+constexpr std::array kTools{Tool{"convert", run_convert},
+                            Tool{"validate", run_validate},
+                            Tool{"inspect", run_inspect},
+                            Tool{"summary", run_summary},
+                            Tool{"page", run_inspect_page},
+                            Tool{"dump", run_dump},
+                            Tool{"assemble", run_assemble},
+                            Tool{"strip", run_strip},
+                            Tool{"rename", run_rename},
+                            Tool{"mergeClips", run_merge_clips},
+                            Tool{"extract", run_extract},
+                            Tool{"changeClips", run_change_clips},
+                            Tool{"limitInfluences", run_limit_influences},
+                            Tool{"export", run_export},
                             Tool{"diff", run_diff}};
 
 Json answer_to(const Json& request) {

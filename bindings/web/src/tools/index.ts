@@ -11,6 +11,7 @@ import { asBytes } from '../bytes.js';
 import { type Inputs, runTool } from './module.js';
 import type {
   Chunk,
+  ClipWork,
   Conversion,
   ConvertOptions,
   CharacterDifferences,
@@ -182,6 +183,20 @@ export function mergeClips(
 /** Keeps the joint with this name and its descendants, with everything that belongs to them. */
 export function extract(bytes: FileBytes, joint: string): Promise<Edited> {
   return edited({ do: 'extract', joint }, { 'a.bendy': asBytes(bytes) });
+}
+
+/**
+ * Changes clips as an option of `bendy edit` does: `changeClips(bytes, 'trim', 'Run=0.5..1.2')`. Only "keep-clip" takes several
+ * texts.
+ */
+export function changeClips(bytes: FileBytes, work: ClipWork, text: string | readonly string[]): Promise<Edited> {
+  const texts = typeof text === 'string' ? [text] : text;
+  return edited({ do: 'changeClips', work, texts }, { 'a.bendy': asBytes(bytes) });
+}
+
+/** Leaves each vertex its `most` largest influences at most, scaled to the same sum. */
+export function limitInfluences(bytes: FileBytes, most: number): Promise<Edited> {
+  return edited({ do: 'limitInfluences', most }, { 'a.bendy': asBytes(bytes) });
 }
 
 /**

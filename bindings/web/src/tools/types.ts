@@ -105,6 +105,9 @@ export interface Edited {
   warnings: string[];
 }
 
+/** What can be done with clips: the options of `bendy edit`, described in docs/cli.md. */
+export type ClipWork = 'keep-clip' | 'copy-clip' | 'trim' | 'resample' | 'mirror' | 'loop' | 'root-motion';
+
 /** The kinds of things that can be renamed. */
 export type NamedKind = 'joint' | 'clip' | 'chain' | 'mesh' | 'target' | 'material' | 'texture' | 'object';
 
