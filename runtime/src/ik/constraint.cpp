@@ -1,5 +1,7 @@
 #include <bendy/runtime/constraint.h>
 
+#include "math/rotation.h"
+
 #include <bendy/format/trig.h>
 
 #include <algorithm>
@@ -11,14 +13,9 @@ namespace {
 
 constexpr double kTurn = 2.0 * trig::kPi;
 
-/// Clamps a value to [low, high]; returns `otherwise` if it is NaN.
-double held(double value, double low, double high, double otherwise) {
-    return std::isnan(value) ? otherwise : std::clamp(value, low, high);
-}
-
 AngleRange make_range(double low, double high, double soft_zone) {
-    low = held(low, -1e3, 1e3, 0.0);
-    high = held(high, -1e3, 1e3, 0.0);
+    low = clamped(low, -1e3, 1e3, 0.0);
+    high = clamped(high, -1e3, 1e3, 0.0);
     if (high < low) high = low;
     AngleRange range;
     range.half = 0.5 * (high - low);
@@ -45,7 +42,7 @@ double half_axis(double limit, double soft_zone) {
     constexpr double kLargest = 1.0 - 1e-12;
     if (limit == std::numeric_limits<double>::infinity()) return limit;
     if (limit >= trig::kPi) return kLargest;
-    return kLargest * trig::sin_cos(0.5 * std::max(0.0, held(limit, 0.0, trig::kPi, 0.0) - soft_zone)).sin;
+    return kLargest * trig::sin_cos(0.5 * std::max(0.0, clamped(limit, 0.0, trig::kPi, 0.0) - soft_zone)).sin;
 }
 
 LimitShape make_shape(const ConstraintRecord& record, double soft_zone) {
@@ -56,14 +53,8 @@ LimitShape make_shape(const ConstraintRecord& record, double soft_zone) {
         shape.swing_low[side] = half_axis(-record.rotation_min[side + 1], soft_zone);
         shape.swing_high[side] = half_axis(record.rotation_max[side + 1], soft_zone);
     }
-    shape.largest = std::max(0.0, held(record.rotation_max[0], 0.0, trig::kPi, 0.0) - soft_zone);
+    shape.largest = std::max(0.0, clamped(record.rotation_max[0], 0.0, trig::kPi, 0.0) - soft_zone);
     return shape;
-}
-
-glm::dquat unit_frame(const std::array<float, 4>& frame) {
-    const glm::dquat q(frame[3], frame[0], frame[1], frame[2]);
-    const double length = glm::length(q);
-    return length > 1e-3 && length < 1e3 ? q / length : glm::dquat(1.0, 0.0, 0.0, 0.0);
 }
 
 }  // namespace
@@ -71,13 +62,13 @@ glm::dquat unit_frame(const std::array<float, 4>& frame) {
 Constraint make_constraint(const ConstraintView& view) {
     Constraint constraint{view};
     const ConstraintRecord& record = view.record;
-    constraint.frame = unit_frame(record.frame);
+    constraint.frame = unit_or_identity(record.frame);
     constraint.shape = make_shape(record, 0.0);
     constraint.has_soft_zone = record.soft_zone > 0.0f && record.soft_zone < ConstraintRecord::kFree;
     if (constraint.has_soft_zone) constraint.inner = make_shape(record, record.soft_zone);
     for (int axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<std::size_t>(axis);
-        constraint.stiffness[axis] = held(record.stiffness[i], 0.0, 1.0, 0.0);
+        constraint.stiffness[axis] = clamped(record.stiffness[i], 0.0, 1.0, 0.0);
         constraint.limits_translation = constraint.limits_translation ||
                                         record.translation_min[i] > -ConstraintRecord::kFree ||
                                         record.translation_max[i] < ConstraintRecord::kFree;

@@ -21,6 +21,11 @@ namespace bendy {
 
 namespace {
 
+glm::dvec3 tip_offset(const Chain& chain) {
+    const auto& offset = chain.record.tip_offset;
+    return {offset[0], offset[1], offset[2]};
+}
+
 /// One call of reach: converts between the model and the problem.
 class Reach {
 public:
@@ -54,8 +59,8 @@ private:
     [[nodiscard]] JointTransform local(std::uint32_t joint) const { return state_.local_of(joint); }
 
     [[nodiscard]] Solver solver() const {
-        if (options_.solver != Solver::any) return options_.solver;
-        if (chain_.solver() != Solver::any) return chain_.solver();
+        const Solver wanted = solver_of(chain_, options_);
+        if (wanted != Solver::any) return wanted;
         const auto bones =
             std::count_if(links_.begin(), links_.end(), [](const IkLink& link) { return link.bone_length > 0.0; });
         return bones == 2 ? Solver::two_bone : Solver::least_squares;
@@ -87,12 +92,10 @@ private:
             IkLink& link = links_[i];
             const JointTransform transform = local(link.joint);
             const Joint& joint = joints_[link.joint];
-            const bool is_last = i + 1 == links_.size();
-            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local(links_[i + 1].joint).translation);
-            link.bone = scale * (scale_and_shear(transform, joint.shear) * offset);
-            link.bone_length = std::sqrt(glm::dot(link.bone, link.bone));
+            link.bone = scale * (scale_and_shear(transform, joint.shear) * end_of(i));
+            link.bone_length = glm::length(link.bone);
             length += link.bone_length;
-            is_uneven_ = is_uneven_ || (!is_last && is_uneven(transform, joint.shear));
+            is_uneven_ = is_uneven_ || (i + 1 < links_.size() && is_uneven(transform, joint.shear));
             scale *= mean_scale(transform.scale);
             const std::uint32_t number = options_.obey_constraints ? state_.data->ik_constraint(link.joint) : kNone;
             const bool is_free = number == kNone;
@@ -118,9 +121,7 @@ private:
             const glm::vec3 axes = glm::abs(local(links_[i].joint).scale);
             const glm::vec3 shear = glm::abs(joints_[links_[i].joint].shear);
             scale *= std::max({axes.x, axes.y, axes.z}) + shear.x + shear.y + shear.z;
-            const bool is_last = i + 1 == links_.size();
-            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local(links_[i + 1].joint).translation);
-            longest_ += scale * std::sqrt(glm::dot(offset, offset)) / problem_.scale;
+            longest_ += scale * glm::length(end_of(i)) / problem_.scale;
         }
     }
 
@@ -130,8 +131,7 @@ private:
             const auto link = std::lower_bound(links_.begin(), links_.end(), chain_weight.joint,
                                                [](const IkLink& l, std::uint32_t joint) { return l.joint < joint; });
             if (link != links_.end() && link->joint == chain_weight.joint) {
-                link->freedom *=
-                    std::isnan(chain_weight.weight) ? 1.0 : std::clamp(double{chain_weight.weight}, 0.0, 1.0);
+                link->freedom *= clamped(chain_weight.weight, 0.0, 1.0, 1.0);
             }
         }
         for (IkLink& link : links_) {
@@ -146,11 +146,10 @@ private:
         problem_.options = &options_;
         problem_.origin = glm::dvec3(local(chain_.record.start).translation) / problem_.scale;
         problem_.target = to_base(target_.position);
-        problem_.tip_rotation =
-            unit({record.tip_rotation[3], record.tip_rotation[0], record.tip_rotation[1], record.tip_rotation[2]});
-        problem_.position_weight = fraction(record.position_weight, 1.0);
+        problem_.tip_rotation = unit_or_identity(record.tip_rotation);
+        problem_.position_weight = clamped(record.position_weight, 0.0, 1.0, 1.0);
         problem_.has_rotation = target_.rotation.has_value();
-        problem_.rotation_weight = fraction(record.rotation_weight, 0.0);
+        problem_.rotation_weight = clamped(record.rotation_weight, 0.0, 1.0, 0.0);
         if (problem_.rotation_weight == 0.0) problem_.rotation_weight = 1.0;
         if (problem_.has_rotation) {
             const glm::dquat wanted(*target_.rotation);
@@ -159,7 +158,7 @@ private:
         } else if (problem_.position_weight == 0.0) {
             problem_.position_weight = 1.0;
         }
-        const float tolerance = options_.tolerance > 0.0f ? options_.tolerance : record.tolerance;
+        const float tolerance = tolerance_of(chain_, options_);
         problem_.tolerance =
             tolerance > 0.0f ? std::max(double{tolerance} / (problem_.scale * base_scale()), 1e-9) : 1e-4;
         constexpr std::uint16_t kMostIterations = 1000;  // limit, whatever the file asks for
@@ -177,40 +176,30 @@ private:
     }
 
     void find_reach() {
-        const glm::dvec3 way = wanted_ - problem_.origin;
-        const double distance = std::sqrt(glm::dot(way, way));
+        const double distance = glm::length(wanted_ - problem_.origin);
         constexpr double kStraight = 1e-6;  // chain lengths: a bend too small to see
         is_far_ = distance > problem_.reach - kStraight;
         problem_.is_out_of_reach = distance > std::max(problem_.reach, longest_) + problem_.tolerance;
     }
 
     void gather_pole() {
-        const ChainRecord& record = chain_.record;
-        problem_.pole_angle = record.pole_angle;
-        const glm::dvec3 direction(record.pole_vector[0], record.pole_vector[1], record.pole_vector[2]);
-        problem_.has_pole = true;
-        if (options_.pole) {
-            problem_.pole = to_base(*options_.pole);
-        } else if (chain_.record.pole != kNone) {
-            problem_.pole = to_base(glm::dvec3(state_.fresh_matrix(chain_.record.pole)[3]));
-        } else if (direction != glm::dvec3(0.0)) {
-            constexpr double kFar = 1e3;  // chain lengths: a direction becomes a distant point
-            problem_.pole = problem_.origin + kFar * direction;
-        } else {
-            problem_.has_pole = false;
-        }
+        const Pole pole = find_pole(chain_, state_, options_);
+        problem_.pole_angle = chain_.record.pole_angle;
+        problem_.has_pole = pole.is_there;
+        constexpr double kFar = 1e3;  // chain lengths: a direction becomes a distant point
+        if (pole.is_there) problem_.pole = pole.is_point ? to_base(pole.place) : problem_.origin + kFar * pole.place;
     }
 
     /// Returns metres in model space per unit of base space, for the longest axis if the axes differ.
     [[nodiscard]] double base_scale() const {
-        const glm::dvec3 x(base_[0]), y(base_[1]), z(base_[2]);
-        const double scale = std::sqrt(std::max({glm::dot(x, x), glm::dot(y, y), glm::dot(z, z)}));
+        const glm::dmat3 axes(base_);
+        const double scale = std::max({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])});
         return scale > 0.0 ? scale : 1.0;
     }
 
-    [[nodiscard]] glm::dvec3 tip_offset() const {
-        const auto& offset = chain_.record.tip_offset;
-        return {offset[0], offset[1], offset[2]};
+    /// Returns where a link's bone ends, relative to its joint: the next joint, or the tip.
+    [[nodiscard]] glm::dvec3 end_of(std::size_t link) const {
+        return link + 1 == links_.size() ? tip_offset(chain_) : glm::dvec3(local(links_[link + 1].joint).translation);
     }
 
     static glm::dmat3 scale_and_shear(const JointTransform& transform, const glm::vec3& shear) {
@@ -228,15 +217,6 @@ private:
     static double mean_scale(const glm::vec3& scale) {
         if (scale.x == scale.y && scale.x == scale.z) return std::abs(scale.x);
         return (std::abs(double{scale.x}) + std::abs(scale.y) + std::abs(scale.z)) / 3.0;
-    }
-
-    static glm::dquat unit(const glm::dquat& q) {
-        const double length = glm::length(q);
-        return length > 1e-3 && length < 1e3 ? q / length : glm::dquat(1.0, 0.0, 0.0, 0.0);
-    }
-
-    static double fraction(float value, double otherwise) {
-        return std::isnan(value) ? otherwise : std::clamp(double{value}, 0.0, 1.0);
     }
 
     std::uint32_t solve() {
@@ -287,11 +267,9 @@ private:
         for (std::size_t i = 0; i < links_.size(); ++i) {
             IkLink& link = links_[i];
             matrix = matrix * link_to_parent(link);
-            const bool is_last = i + 1 == links_.size();
-            const glm::dvec3 offset = is_last ? tip_offset() : glm::dvec3(local(links_[i + 1].joint).translation);
-            const glm::dvec3 end = glm::dvec3(matrix * glm::dvec4(offset, 1.0)) / problem_.scale;
+            const glm::dvec3 end = glm::dvec3(matrix * glm::dvec4(end_of(i), 1.0)) / problem_.scale;
             link.bone = glm::conjugate(link.global) * (end - position);
-            link.bone_length = std::sqrt(glm::dot(link.bone, link.bone));
+            link.bone_length = glm::length(link.bone);
             problem_.reach += link.bone_length;
             position = end;
         }
@@ -309,17 +287,15 @@ private:
         if (!is_uneven_) return problem_.tip;
         glm::dmat4 matrix(1.0);
         for (const IkLink& link : links_) matrix = matrix * link_to_parent(link);
-        return glm::dvec3(matrix * glm::dvec4(tip_offset(), 1.0)) / problem_.scale;
+        return glm::dvec3(matrix * glm::dvec4(tip_offset(chain_), 1.0)) / problem_.scale;
     }
 
     /// Scales all bones by the same factor, within the range that the chain allows.
     void fit_length() {
-        const glm::dvec3 way = problem_.target - problem_.origin;
-        const glm::dvec3 reached = problem_.tip - problem_.origin;
-        const double is = std::sqrt(glm::dot(reached, reached));
-        if (is < 1e-9) return;
-        const double wanted = std::sqrt(glm::dot(way, way)) / is;
-        stretch_ = std::clamp(wanted, 1.0 - fraction(chain_.record.compress, 0.0),
+        const double reached = glm::length(problem_.tip - problem_.origin);
+        if (reached < 1e-9) return;
+        const double wanted = glm::length(problem_.target - problem_.origin) / reached;
+        stretch_ = std::clamp(wanted, 1.0 - clamped(chain_.record.compress, 0.0, 1.0, 0.0),
                               1.0 + std::max(0.0, double{chain_.record.stretch}));
         // The tip's offset is inside the effector and is not scaled.
         for (std::size_t i = 0; i + 1 < links_.size(); ++i) {
@@ -334,8 +310,7 @@ private:
 
     /// Writes the links' rotations into the pose.
     void scatter() {
-        const double influence =
-            std::isnan(options_.influence) ? 0.0 : std::clamp(double{options_.influence}, 0.0, 1.0);
+        const double influence = clamped(options_.influence, 0.0, 1.0, 0.0);
         for (const IkLink& link : links_) {
             JointTransform joint = local(link.joint);
             const glm::dquat mixed = influence == 1.0
@@ -350,18 +325,15 @@ private:
 
     void measure(ReachResult& result) const {
         const glm::dvec3 left = wanted_ - true_tip();
-        const double distance = std::sqrt(glm::dot(left, left));
-        const glm::dvec3 in_model = glm::dmat3(base_) * (left * problem_.scale);
-        result.distance = static_cast<float>(std::sqrt(glm::dot(in_model, in_model)));
+        result.distance = static_cast<float>(glm::length(glm::dmat3(base_) * (left * problem_.scale)));
         if (solver() == Solver::aim) {
             const glm::dvec3 forward = problem_.tip_global * glm::dvec3(0.0, 0.0, 1.0);
-            const glm::dvec3 turn = to_vector(between(forward, problem_.target - problem_.tip));
-            result.angle = static_cast<float>(std::sqrt(glm::dot(turn, turn)));
+            result.angle = static_cast<float>(glm::length(to_vector(between(forward, problem_.target - problem_.tip))));
             result.status = result.angle <= problem_.tolerance ? ReachStatus::aimed : ReachStatus::not_reached;
             return;
         }
         result.angle = static_cast<float>(problem_.rotation_error());
-        const bool is_there = problem_.position_weight == 0.0 || distance <= problem_.tolerance;
+        const bool is_there = problem_.position_weight == 0.0 || glm::length(left) <= problem_.tolerance;
         const bool is_turned = problem_.rotation_error() <= problem_.tolerance;
         if (is_there && is_turned) {
             result.status = ReachStatus::reached;
@@ -387,28 +359,18 @@ private:
     bool is_uneven_ = false;  ///< a link before the last scales its axes unevenly
 };
 
-bool is_at_or_below(const Model& model, std::uint32_t joint, std::uint32_t ancestor) {
-    const auto parents = model.parents();
-    while (joint != kNone && joint != ancestor) joint = parents[joint];
-    return joint != kNone;
-}
-
 /// See ReachOptions::carry_target.
 void carry_target(const Chain& chain, Pose& pose) {
-    const Model& model = pose.model();
     PoseState& state = PoseState::of(pose);
-    if (chain.record.target == kNone || is_at_or_below(model, chain.record.target, chain.record.start) ||
-        is_at_or_below(model, chain.record.start, chain.record.target)) {
-        return;
-    }
-    const auto& offset = chain.record.tip_offset;
-    const glm::dvec4 tip = state.fresh_matrix(chain.record.effector) * glm::dvec4(offset[0], offset[1], offset[2], 1.0);
-    const std::uint32_t parent = model.joints()[chain.record.target].parent;
-    const glm::dmat4 space = state.fresh_matrix(parent);
+    const std::uint32_t start = chain.record.start, target = chain.record.target;
+    const PosePlan& plan = *state.data->pose_plan;
+    if (target == kNone || plan.is_at_or_below(target, start) || plan.is_at_or_below(start, target)) return;
+    const glm::dvec4 tip = state.fresh_matrix(chain.record.effector) * glm::dvec4(tip_offset(chain), 1.0);
+    const glm::dmat4 space = state.fresh_matrix(state.data->parents[target]);
     if (std::abs(glm::determinant(space)) < 1e-30) return;
-    JointTransform local = pose.local(chain.record.target);
+    JointTransform local = pose.local(target);
     local.translation = glm::vec3(glm::inverse(space) * tip);
-    pose.set_local(chain.record.target, local);
+    pose.set_local(target, local);
 }
 
 }  // namespace

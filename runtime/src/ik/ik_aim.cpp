@@ -37,10 +37,10 @@ std::uint32_t solve_aim(IkProblem& problem) {
         for (std::size_t i = 0; i < links; ++i) {
             if (problem.links[i].is_fixed) continue;
             const double share = iteration == 0 ? 1.0 / static_cast<double>(links - i) : 1.0;
-            turn_link(problem, i, share * turn_left(problem));
+            turn_link(problem, i, from_vector(share * turn_left(problem)));
             problem.place(i);
             if (problem.has_pole) {
-                turn_link(problem, i, share * roll_left(problem));
+                turn_link(problem, i, from_vector(share * roll_left(problem)));
                 problem.place(i);
             }
         }

@@ -40,8 +40,8 @@ void reach_backwards(IkProblem& problem) {
         // The direction of the last bone follows from the target's orientation.
         if (turns_by_orientation(problem, i))
             back = -(problem.target_rotation * glm::conjugate(problem.tip_global)) * bone;
-        const double length = std::sqrt(glm::dot(back, back));
-        end += length > 1e-12 ? back * (std::sqrt(glm::dot(bone, bone)) / length) : -bone;
+        const double length = glm::length(back);
+        end += length > 1e-12 ? back * (glm::length(bone) / length) : -bone;
         link.goal = end;  // of the link itself
         end_now = link.position;
     }
@@ -85,7 +85,7 @@ void twist_for_hinge(IkProblem& problem, std::size_t i, std::size_t next) {
     const glm::dvec3 own = hinged.constraint == nullptr ? glm::dvec3(0.0) : only_axis(*hinged.constraint);
     if (own == glm::dvec3(0.0)) return;
     const glm::dvec3 bone = hinged.position - link.position;
-    const double length = std::sqrt(glm::dot(bone, bone));
+    const double length = glm::length(bone);
     if (length < 1e-9) return;
     const glm::dvec3 axis = bone / length;
     const glm::dvec3 hinge = problem.parent_global(next) * (hinged.rest_frame * own);
@@ -103,7 +103,7 @@ void twist_for_hinge(IkProblem& problem, std::size_t i, std::size_t next) {
     const double opening = trig::acos(-along / most);
     const double one = std::remainder(middle - opening, 2.0 * trig::kPi);
     const double other = std::remainder(middle + opening, 2.0 * trig::kPi);
-    turn_link(problem, i, axis * (std::abs(one) < std::abs(other) ? one : other));
+    turn_link(problem, i, from_vector(axis * (std::abs(one) < std::abs(other) ? one : other)));
 }
 
 void reach_forwards(IkProblem& problem) {
@@ -143,11 +143,7 @@ std::uint32_t solve_fabrik(IkProblem& problem) {
     std::uint32_t without_gain = 0;
     for (std::uint32_t iteration = 0; iteration < most; ++iteration) {
         if (problem.is_reached()) return iteration;
-        if (is_limited) {
-            reach_backwards_legally(problem);
-        } else {
-            reach_backwards(problem);
-        }
+        is_limited ? reach_backwards_legally(problem) : reach_backwards(problem);
         reach_forwards(problem);
         problem.place();
         const double now = problem.cost();

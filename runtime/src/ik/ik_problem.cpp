@@ -18,6 +18,15 @@ glm::dquat through_limits(const IkLink& link, const glm::dquat& local, const Leg
     return inside == R ? local : glm::normalize(link.rest_frame * inside * glm::conjugate(link.frame));
 }
 
+/// Returns how far a joint swings about Y and about Z: low and high limit together; zero if it has no swing.
+glm::dvec2 swing_widths(const Constraint& constraint) {
+    const ConstraintModel model = constraint.model();
+    if (model != ConstraintModel::swing_twist_ellipse && model != ConstraintModel::swing_twist_pyramid)
+        return glm::dvec2(0.0);
+    const LimitShape& shape = constraint.shape;
+    return {shape.swing_low[0] + shape.swing_high[0], shape.swing_low[1] + shape.swing_high[1]};
+}
+
 }  // namespace
 
 void IkProblem::place(std::size_t first) {
@@ -51,8 +60,7 @@ glm::dquat IkProblem::parent_global(std::size_t link) const {
 }
 
 double IkProblem::distance() const {
-    const glm::dvec3 left = target - tip;
-    return std::sqrt(glm::dot(left, left));
+    return glm::length(target - tip);
 }
 
 double IkProblem::rotation_error() const {
@@ -129,30 +137,22 @@ glm::dvec3 preferred_side(const Constraint& constraint) {
 }
 
 glm::dvec3 only_axis(const Constraint& constraint) {
-    const LimitShape& shape = constraint.shape;
-    const auto has_width = [&](std::size_t side) {
-        constexpr double kNarrow = 1e-6;  // radians
-        return shape.swing_low.at(side) + shape.swing_high.at(side) > kNarrow;
-    };
-    switch (constraint.model()) {
-        case ConstraintModel::hinge:
-            return {1.0, 0.0, 0.0};
-        case ConstraintModel::swing_twist_ellipse:
-        case ConstraintModel::swing_twist_pyramid:
-            if (has_width(0) == has_width(1)) return glm::dvec3(0.0);
-            return {0.0, has_width(0) ? 1.0 : 0.0, has_width(1) ? 1.0 : 0.0};
-        default:
-            return glm::dvec3(0.0);
-    }
+    if (constraint.model() == ConstraintModel::hinge) return {1.0, 0.0, 0.0};
+    const glm::dvec2 widths = swing_widths(constraint);
+    constexpr double kNarrow = 1e-6;  // radians
+    const bool has_y = widths.x > kNarrow, has_z = widths.y > kNarrow;
+    return has_y == has_z ? glm::dvec3(0.0) : glm::dvec3(0.0, has_y ? 1.0 : 0.0, has_z ? 1.0 : 0.0);
+}
+
+glm::dvec3 bend_axis(const Constraint& constraint, const glm::dquat& rest_frame, const glm::dquat& local) {
+    const glm::dvec3 only = only_axis(constraint);
+    return constraint.model() == ConstraintModel::hinge ? local * (constraint.frame * only) : rest_frame * only;
 }
 
 glm::dvec3 wider_axis(const Constraint& constraint) {
-    const bool has_swing = constraint.model() == ConstraintModel::swing_twist_ellipse ||
-                           constraint.model() == ConstraintModel::swing_twist_pyramid;
-    if (!has_swing || only_axis(constraint) != glm::dvec3(0.0)) return glm::dvec3(0.0);
-    const LimitShape& shape = constraint.shape;
-    const auto width = [&](std::size_t side) { return shape.swing_low.at(side) + shape.swing_high.at(side); };
-    const glm::dvec3 axis = width(0) >= width(1) ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
+    const glm::dvec2 widths = swing_widths(constraint);
+    if (widths == glm::dvec2(0.0) || only_axis(constraint) != glm::dvec3(0.0)) return glm::dvec3(0.0);
+    const glm::dvec3 axis = widths.x >= widths.y ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0);
     return glm::dot(axis, preferred_side(constraint)) < 0.0 ? -axis : axis;
 }
 
@@ -170,10 +170,6 @@ glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dquat& rot
     l.local = softly_legal_local(l, glm::normalize(glm::conjugate(parent) * (turn * l.global)));
     l.global = parent * l.local;
     return l.global * glm::conjugate(before);
-}
-
-glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dvec3& vector) {
-    return turn_link(problem, link, from_vector(vector));
 }
 
 void point_at_target(IkProblem& problem) {

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <bendy/format/public.h>
 #include <bendy/runtime/ik.h>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
-#include "pose/ik_link.h"
+#include "pose/pose_state.h"
 
 #include <span>
 
@@ -56,13 +57,36 @@ glm::dquat nearest_legal_local(const IkLink& link, const glm::dquat& local);
 glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local);
 /// Returns a rotation vector in base space, scaled by the link's freedom about each of its axes.
 glm::dvec3 freed(const IkLink& link, const glm::dvec3& vector);
+/// Returns the solver that the options or else the chain asks for.
+inline Solver solver_of(const Chain& chain, const ReachOptions& options) {
+    return options.solver != Solver::any ? options.solver : chain.solver();
+}
+/// Returns the tolerance that the options or else the chain asks for, in metres; 0 if there is none.
+inline float tolerance_of(const Chain& chain, const ReachOptions& options) {
+    const float tolerance = options.tolerance > 0.0f ? options.tolerance : chain.record.tolerance;
+    return tolerance > 0.0f ? tolerance : 0.0f;
+}
 /// Returns how far the scales of a joint's axes may differ, as a share of them, and still count as one: what clips hold
 /// after rounding. The bones below are then off by a tenth of the default tolerance at most; if a tolerance is given,
 /// by a millionth of their length.
 inline float same_scale(const Chain& chain, const ReachOptions& options) {
     constexpr float kRounded = 1e-5f, kExact = 1e-6f;
-    return options.tolerance > 0.0f || chain.record.tolerance > 0.0f ? kExact : kRounded;
+    return tolerance_of(chain, options) > 0.0f ? kExact : kRounded;
 }
+
+/// What a chain bends towards.
+struct Pole {
+    bool is_there = false, is_point = false;
+    glm::dvec3 place{0.0};  ///< in model space if it is a point, otherwise a direction in base space
+};
+BENDY_ALWAYS_INLINE Pole find_pole(const Chain& chain, PoseState& state, const ReachOptions& options) {
+    if (options.pole) return {true, true, *options.pole};
+    if (chain.record.pole != kNone) return {true, true, glm::dvec3(state.fresh_matrix(chain.record.pole)[3])};
+    const auto& vector = chain.record.pole_vector;
+    const glm::dvec3 direction(vector[0], vector[1], vector[2]);
+    return {direction != glm::dvec3(0.0), false, direction};
+}
+
 /// Returns the direction in which a joint prefers to turn or, if none is given, the side to which its constraint lets
 /// it turn farther, as a rotation vector about the frame's axes: mirrored for a mirrored joint, whatever the
 /// orientation of its axes. Zero if nothing is preferred.
@@ -71,13 +95,14 @@ glm::dvec3 preferred_side(const Constraint& constraint);
 /// zero width. Zero if there is none. It is an axis of the rest pose: a hinge does not turn its own, and a swing's is
 /// the same whatever the twist.
 glm::dvec3 only_axis(const Constraint& constraint);
+/// Returns that axis in the parent's space, for a unit rotation of the joint: a hinge that is outside its constraint
+/// bends about its axis as it is.
+glm::dvec3 bend_axis(const Constraint& constraint, const glm::dquat& rest_frame, const glm::dquat& local);
 /// Returns the axis of the swing that reaches farther, towards the preferred side. Zero if there is only one axis, or
 /// no swing.
 glm::dvec3 wider_axis(const Constraint& constraint);
-/// Rotates a placed link by a rotation vector in base space, as far as it is free and legal; returns the actual
-/// rotation. Does not place the following links again.
-glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dvec3& vector);
-/// The same for a rotation, which is faster if the link is completely free.
+/// Rotates a placed link in base space, as far as it is free and legal; returns the actual rotation. Does not place the
+/// following links again.
 glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dquat& rotation);
 
 // The solvers. Each starts with a placed problem whose links are legal, leaves it in that state, and returns its

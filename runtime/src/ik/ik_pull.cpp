@@ -22,25 +22,25 @@ std::uint32_t solve_pull(IkProblem& problem) {
             const IkLink& link = problem.links[i];
             const glm::dvec3 F = problem.target - tip;
             const glm::dvec3 B = tip - link.position;
-            const double force = std::sqrt(glm::dot(F, F));
-            const double arm = std::sqrt(glm::dot(B, B));
+            const double force = glm::length(F);
+            const double arm = glm::length(B);
             if (link.is_fixed || force < 1e-12 || arm < 1e-12) continue;
             const glm::dvec3 across = glm::cross(B, F) / (arm * force);
-            const double sine_b = std::sqrt(glm::dot(across, across));
+            const double sine_b = glm::length(across);
             glm::dvec3 turn(0.0);
             for (int axis = 0; axis < 3; ++axis) {
                 glm::dvec3 A(0.0);
                 A[axis] = 1.0;
                 A = link.global * (link.frame * A);
                 const glm::dvec3 side = glm::cross(A, F) / force;
-                const double sine_a = std::sqrt(glm::dot(side, side));
+                const double sine_a = glm::length(side);
                 const double along = glm::dot(glm::cross(A, B), F);
                 const double sign = along > 0.0 ? 1.0 : along < 0.0 ? -1.0 : 0.0;
                 turn += A * (gain * force * sine_a * sine_b * sign);
             }
-            const double size = std::sqrt(glm::dot(turn, turn));
+            const double size = glm::length(turn);
             if (size > step_limit) turn *= step_limit / size;
-            const glm::dquat turned = turn_link(problem, i, turn);
+            const glm::dquat turned = turn_link(problem, i, from_vector(turn));
             tip = link.position + turned * B;
         }
         problem.place();

@@ -2,7 +2,7 @@
 
 #include "ik_problem.h"
 #include "math/nearest_rotation.h"
-#include "plan/blocks.h"
+#include "one_limb.h"
 #include "pose/pose_state.h"
 
 #include <bendy/format/public.h>
@@ -14,64 +14,8 @@
 #include <cmath>
 
 namespace bendy {
+namespace one_limb {
 namespace {
-
-// Numbers for two_bone.h: one limb.
-constexpr std::size_t kLimbs = 1;
-using Number = double;
-using Mask = bool;
-
-BENDY_ALWAYS_INLINE Number root(Number number) {
-    return std::sqrt(number);
-}
-BENDY_ALWAYS_INLINE Number absolute(Number number) {
-    return std::abs(number);
-}
-BENDY_ALWAYS_INLINE Number greater(Number a, Number b) {
-    return a > b ? a : b;
-}
-template <class Value>
-BENDY_ALWAYS_INLINE Value chosen(Mask mask, Value a, Value b) {
-    return mask ? a : b;
-}
-BENDY_ALWAYS_INLINE Mask both(Mask a, Mask b) {
-    return a && b;
-}
-BENDY_ALWAYS_INLINE Mask either(Mask a, Mask b) {
-    return a || b;
-}
-BENDY_ALWAYS_INLINE Mask opposite(Mask mask) {
-    return !mask;
-}
-BENDY_ALWAYS_INLINE bool is_any(Mask mask) {
-    return mask;
-}
-BENDY_ALWAYS_INLINE bool is_every(Mask mask) {
-    return mask;
-}
-BENDY_ALWAYS_INLINE Number loaded(const double* from) {
-    return *from;
-}
-
-#include "kernels/two_bone.h"
-
-BENDY_ALWAYS_INLINE glm::dquat glm_of(const Rotation& q) {
-    return {q.w, q.x, q.y, q.z};
-}
-
-BENDY_ALWAYS_INLINE Rotation rotation_of(const glm::dquat& q) {
-    return {q.x, q.y, q.z, q.w};
-}
-
-BENDY_ALWAYS_INLINE Vector vector_of(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
-/// Sets the numbers of one limb in a set of limbs.
-template <std::size_t numbers, std::size_t limbs, class Numbers>
-BENDY_ALWAYS_INLINE void put(const Numbers& from, double (&to)[numbers][limbs], std::size_t limb) {
-    for (std::size_t c = 0; c < numbers; ++c) to[c][limb] = from[static_cast<int>(c)];
-}
 
 /// A joint's constraint while its chain is solved.
 class LinkConstraint {
@@ -88,20 +32,13 @@ public:
     [[nodiscard]] bool prefers_back() const { return bendy::prefers_back(constraint_); }
     /// Returns true if it only restricts which rotations are legal.
     BENDY_ALWAYS_INLINE bool is_plain() const { return !is_there() || says_rotations_only(); }
-    /// Computes the only axis about which the joint bends, in the parent's space, for a unit rotation; returns false if
-    /// there are others.
-    BENDY_ALWAYS_INLINE bool find_bend_axis(const glm::dquat& local, glm::dvec3& axis) const {
-        const glm::dvec3 only = is_there() ? only_axis(*constraint_) : glm::dvec3(0.0);
-        if (only == glm::dvec3(0.0)) return false;
-        axis = is_hinge() ? local * (constraint_->frame * only) : *rest_frame_ * only;
-        return true;
+    /// See bend_axis.
+    [[nodiscard]] glm::dvec3 bend_axis(const glm::dquat& local) const {
+        return is_there() ? bendy::bend_axis(*constraint_, *rest_frame_, local) : glm::dvec3(0.0);
     }
-
-    /// Computes the axis of the wider swing in the parent's space; returns false if there are not two swings.
-    [[nodiscard]] bool find_wider_axis(glm::dvec3& axis) const {
-        const glm::dvec3 wider = is_there() ? wider_axis(*constraint_) : glm::dvec3(0.0);
-        if (is_there()) axis = *rest_frame_ * wider;
-        return wider != glm::dvec3(0.0);
+    /// Returns the axis of the wider swing in the parent's space; zero if there are not two swings.
+    [[nodiscard]] glm::dvec3 wider_axis() const {
+        return is_there() ? *rest_frame_ * bendy::wider_axis(*constraint_) : glm::dvec3(0.0);
     }
 
     /// Rotates a unit rotation that is outside the limits about a unit axis until it is inside; returns false if no
@@ -155,38 +92,20 @@ struct LimbLimits {
     LinkConstraint upper, lower, end;
 };
 
-/// The position of a chain's pole.
-struct Pole {
-    bool is_there = false, is_point = false;
-    glm::dvec3 place{0.0};  ///< in model space if it is a point, otherwise a direction in base space
-};
-
-BENDY_ALWAYS_INLINE Pole find_pole(const Chain& chain, PoseState& state, const ReachOptions& options) {
-    if (options.pole) return {true, true, *options.pole};
-    if (chain.record.pole != kNone) return {true, true, glm::dvec3(state.fresh_matrix(chain.record.pole)[3])};
-    const auto& vector = chain.record.pole_vector;
-    const glm::dvec3 direction(vector[0], vector[1], vector[2]);
-    return {direction != glm::dvec3(0.0), false, direction};
-}
-
-BENDY_ALWAYS_INLINE float tolerance_of(const Chain& chain, const ReachOptions& options) {
-    const float tolerance = options.tolerance > 0.0f ? options.tolerance : chain.record.tolerance;
-    return tolerance > 0.0f ? tolerance : 0.0f;
-}
-
 /// Bends by the smaller rotation, or by the other one about a fixed axis, and returns on which side of the limits the
 /// result is; "edge" if no rotation is clearly on one side.
-BENDY_ALWAYS_INLINE LinkConstraint::Side bend_middle(const LinkConstraint& limit, const Limb& limb, Bend& bend,
+BENDY_ALWAYS_INLINE LinkConstraint::Side bend_middle(const LinkConstraint& limit, const Limbs& limb, Bend& bend,
                                                      Turn& turn, Reaching& reach) {
     using Side = LinkConstraint::Side;
     const Rotation before = reach.lower;
+    const bool is_fixed = load_flag(limb.is_fixed);
     Turn turns[2];
-    if (!find_bend(reach, limb.is_fixed, bend)) return Side::edge;
-    find_turns(bend, limb.is_fixed, limb.prefers_back, turns);
+    if (!find_bend(reach, is_fixed, bend)) return Side::edge;
+    find_turns(bend, is_fixed, load_flag(limb.prefers_back), turns);
     turn = turns[0];
     if (!turn_middle(bend, turn, before, reach.lower)) return Side::edge;
     const Side side = limit.side(glm_of(reach.lower));
-    if (side != Side::outside || !limb.is_fixed) return side;
+    if (side != Side::outside || !is_fixed) return side;
     turn = turns[1];
     return turn_middle(bend, turn, before, reach.lower) ? limit.side(glm_of(reach.lower)) : Side::edge;
 }
@@ -195,9 +114,8 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
                                           const ReachOptions& options) {
     PoseState& state = PoseState::of(pose);
     const ModelData& model = *state.data;
-    Limbs limbs;
-    if (!gather_limb(chain, target, pose, options, limbs, 0)) return std::nullopt;
-    Limb limb = load_limb(limbs);
+    Limbs limb;
+    if (!gather_limb(chain, target, pose, options, limb, 0)) return std::nullopt;
     Reaching reach;
     Bend bend{};
     Turn turn;
@@ -205,10 +123,11 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
     const LimbLimits limits(model, chain, options);
     const Rotation before = reach.lower;
     LinkConstraint::Side side = bend_middle(limits.lower, limb, bend, turn, reach);
-    glm::dvec3 wider;
-    if (side == LinkConstraint::Side::outside && limits.lower.find_wider_axis(wider)) {
+    if (side == LinkConstraint::Side::outside) {
+        const glm::dvec3 wider = limits.lower.wider_axis();
+        if (wider == glm::dvec3(0.0)) return std::nullopt;
         bend.axis = vector_of(wider);
-        limb.is_fixed = true;
+        limb.is_fixed[0][0] = 1.0;
         reach.lower = before;
         side = bend_middle(limits.lower, limb, bend, turn, reach);
     }
@@ -217,8 +136,8 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
     if (!(distance >= 0.0)) return std::nullopt;
     glm::dquat upper = glm_of(reach.upper);
     if (!limits.upper.holds(upper)) {
-        const Vector axis = reach.way * (1.0 / root(reach.distance));
-        if (!limits.upper.swivel(upper, {axis.x, axis.y, axis.z})) return std::nullopt;
+        const glm::dvec3 axis = glm_of(reach.way * (1.0 / root(reach.distance)));
+        if (!limits.upper.swivel(upper, axis)) return std::nullopt;
     }
     state.set_rotation(chain.record.start, glm::quat(upper));
     state.set_rotation(model.parents[chain.record.effector], glm::quat(glm_of(reach.lower)));
@@ -241,7 +160,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
                           normalize(tip);
     if (!is_plain) return std::nullopt;
     const glm::dmat4 matrix = state.fresh_matrix(model.parents[joint]);
-    const Vector base[4] = {vector_of(matrix[0]), vector_of(matrix[1]), vector_of(matrix[2]), vector_of(matrix[3])};
+    const Space base{vector_of(matrix[0]), vector_of(matrix[1]), vector_of(matrix[2]), vector_of(matrix[3])};
     const Vector origin = vector_of(transform.translation);
     const Vector way = from_model(base, vector_of(target.position)) - origin;
     const double distance = std::sqrt(squared(way));
@@ -272,8 +191,7 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
     }
     if (!limit.holds(glm_of(rotation)) || !(squared(rotation) > 0.5)) return std::nullopt;
     state.set_rotation(joint, glm::quat(glm_of(rotation)));
-    const Vector in_model = base[0] * way.x + base[1] * way.y + base[2] * way.z;
-    return ReachResult{ReachStatus::aimed, static_cast<float>(std::sqrt(squared(in_model))), 0.0f, 1};
+    return ReachResult{ReachStatus::aimed, static_cast<float>(root(squared(to_model(base, way)))), 0.0f, 1};
 }
 
 /// Returns true if only a position is requested, including the chain's own settings.
@@ -286,15 +204,17 @@ bool is_plain(const Chain& chain, const ReachTarget& target, const Pose& pose, c
 
 bool is_two_bone(const Chain& chain, const ReachOptions& options) {
     constexpr std::uint32_t kLinks = 3;  // including the effector
-    const Solver solver = options.solver != Solver::any ? options.solver : chain.solver();
+    const Solver solver = solver_of(chain, options);
     return (solver == Solver::any || solver == Solver::two_bone) && chain.links == kLinks;
 }
 
 }  // namespace
+}  // namespace one_limb
 
 template <std::size_t count>
 bool gather_limb(const Chain& chain, const ReachTarget& target, Pose& pose, const ReachOptions& options,
                  TwoBoneLimbs<count>& limbs, std::size_t number) {
+    using namespace one_limb;
     PoseState& state = PoseState::of(pose);
     const ModelData& model = *state.data;
     const std::uint32_t start = chain.record.start;
@@ -316,7 +236,8 @@ bool gather_limb(const Chain& chain, const ReachTarget& target, Pose& pose, cons
         const bool is_legal = normalize_local(upper) && normalize_local(lower) && limits.upper.holds(glm_of(upper)) &&
                               limits.lower.holds(glm_of(lower)) && limits.end.holds(glm_of(end));
         if (!is_legal) return false;
-        is_fixed = limits.lower.find_bend_axis(glm_of(lower), axis);
+        axis = limits.lower.bend_axis(glm_of(lower));
+        is_fixed = axis != glm::dvec3(0.0);
         prefers_back = limits.lower.prefers_back();
     }
     put_flag(limbs.has_limits, limits.are_there());
@@ -355,20 +276,20 @@ template bool gather_limb(const Chain&, const ReachTarget&, Pose&, const ReachOp
 
 bool are_legal(const Chain& chain, const Pose& pose, const ReachOptions& options, const glm::dquat& upper,
                const glm::dquat& lower) {
-    const LimbLimits limits(*PoseState::of(pose).data, chain, options);
+    const one_limb::LimbLimits limits(*PoseState::of(pose).data, chain, options);
     return limits.lower.holds(lower) && limits.upper.holds(upper);
 }
 
 bool is_plain_limb(const Chain& chain, const ReachTarget& target, const Pose& pose, const ReachOptions& options) {
-    return is_two_bone(chain, options) && is_plain(chain, target, pose, options);
+    return one_limb::is_two_bone(chain, options) && one_limb::is_plain(chain, target, pose, options);
 }
 
 std::optional<ReachResult> reach_quickly(const Chain& chain, const ReachTarget& target, Pose& pose,
                                          const ReachOptions& options) {
-    if (!is_plain(chain, target, pose, options)) return std::nullopt;
-    if (is_two_bone(chain, options)) return reach_two_bone(chain, target, pose, options);
-    const Solver solver = options.solver != Solver::any ? options.solver : chain.solver();
-    if (solver == Solver::aim && chain.links == 1) return reach_aim(chain, target, pose, options);
+    if (!one_limb::is_plain(chain, target, pose, options)) return std::nullopt;
+    if (one_limb::is_two_bone(chain, options)) return one_limb::reach_two_bone(chain, target, pose, options);
+    if (solver_of(chain, options) == Solver::aim && chain.links == 1)
+        return one_limb::reach_aim(chain, target, pose, options);
     return std::nullopt;
 }
 

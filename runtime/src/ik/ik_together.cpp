@@ -21,10 +21,7 @@ class Together {
 public:
     /// \param results  empty, or one for each request
     Together(Pose& pose, std::span<ReachResult> results)
-        : pose_(pose),
-          results_(results),
-          ends_(PoseState::of(pose).data->pose_plan->subtree_ends),
-          kernels_(kernel_table()) {}
+        : pose_(pose), results_(results), plan_(*PoseState::of(pose).data->pose_plan), kernels_(kernel_table()) {}
 
     /// Solves a request now or together with later ones.
     void add(const ReachRequest& request, std::size_t number) {
@@ -36,8 +33,7 @@ public:
     /// Returns true if a pending chain moves the joint.
     [[nodiscard]] bool will_move(std::uint32_t joint) const {
         return std::any_of(limbs_.begin(), limbs_.begin() + count_, [&](const Limb& limb) {
-            const std::uint32_t start = limb.request.chain->record.start;
-            return start <= joint && joint < ends_[start];
+            return plan_.is_at_or_below(joint, limb.request.chain->record.start);
         });
     }
 
@@ -111,7 +107,7 @@ private:
 
     Pose& pose_;
     std::span<ReachResult> results_;
-    std::span<const std::uint32_t> ends_;
+    const PosePlan& plan_;
     const KernelTable& kernels_;
     TwoBoneBlock block_{};
     std::array<Limb, kLimbs> limbs_{};  ///< of `block_`

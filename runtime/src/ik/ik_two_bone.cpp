@@ -1,5 +1,6 @@
 #include "ik_problem.h"
 #include "math/rotation.h"
+#include "one_limb.h"
 
 #include <bendy/format/trig.h>
 
@@ -13,17 +14,13 @@ namespace {
 
 constexpr double kSameTurn = 1e-6;  // radians, and cosines: within rounding of one another
 
-double length_of(const glm::dvec3& v) {
-    return std::sqrt(glm::dot(v, v));
-}
-
 /// Returns the link that bends: the one that divides the chain most evenly.
 std::size_t find_middle(const IkProblem& problem) {
     std::size_t middle = 0;
     double best = 0.0;
     for (std::size_t i = 1; i < problem.links.size(); ++i) {
         const glm::dvec3& position = problem.links[i].position;
-        const double shorter = std::min(length_of(position - problem.origin), length_of(problem.tip - position));
+        const double shorter = std::min(glm::length(position - problem.origin), glm::length(problem.tip - position));
         if (problem.links[i].is_fixed || shorter <= best) continue;
         best = shorter;
         middle = i;
@@ -35,20 +32,16 @@ std::size_t find_middle(const IkProblem& problem) {
 glm::dvec3 bend_axis(const IkProblem& problem, std::size_t link, const glm::dvec3& u, const glm::dvec3& v) {
     const IkLink& middle = problem.links[link];
     if (middle.constraint != nullptr) {
-        // A hinge that is outside its constraint bends about its axis as it is.
-        const bool is_hinge = middle.constraint->model() == ConstraintModel::hinge;
-        const glm::dquat before =
-            is_hinge ? middle.global * middle.frame : problem.parent_global(link) * middle.rest_frame;
-        const glm::dvec3 only = only_axis(*middle.constraint);
-        if (only != glm::dvec3(0.0)) return before * only;
+        const glm::dvec3 only = bend_axis(*middle.constraint, middle.rest_frame, middle.local);
+        if (only != glm::dvec3(0.0)) return problem.parent_global(link) * only;
     }
-    const double size = length_of(u) * length_of(v);
+    const double size = glm::length(u) * glm::length(v);
     glm::dvec3 axis = glm::cross(u, v);
     constexpr double kStraight = 1e-6;
-    if (length_of(axis) > kStraight * size) return axis;
+    if (glm::length(axis) > kStraight * size) return axis;
     if (problem.has_pole) {
         axis = glm::cross(problem.pole - problem.origin, u);
-        if (length_of(axis) > kStraight * length_of(u)) return axis;
+        if (glm::length(axis) > kStraight * glm::length(u)) return axis;
     }
     // A straight chain bends in the direction that its joint prefers, otherwise about the more perpendicular of its
     // axes.
@@ -56,7 +49,7 @@ glm::dvec3 bend_axis(const IkProblem& problem, std::size_t link, const glm::dvec
     if (middle.constraint != nullptr) {
         axis = axes * preferred_side(*middle.constraint);
         axis -= u * (glm::dot(axis, u) / glm::dot(u, u));
-        if (length_of(axis) > kStraight) return axis;
+        if (glm::length(axis) > kStraight) return axis;
     }
     const glm::dvec3 x = glm::cross(u, axes * glm::dvec3(1.0, 0.0, 0.0));
     const glm::dvec3 z = glm::cross(u, axes * glm::dvec3(0.0, 0.0, 1.0));
@@ -79,36 +72,33 @@ struct MiddleTurn {
 /// Returns the rotation of the middle joint about `axis` that brings the distance of the tip from the start as near as
 /// possible to `distance`.
 MiddleTurn find_middle_turn(const IkProblem& problem, std::size_t middle, const glm::dvec3& axis, double distance) {
+    using namespace one_limb;
     const IkLink& link = problem.links[middle];
-    const glm::dvec3 u = link.position - problem.origin;
-    const glm::dvec3 v = problem.tip - link.position;
-    const double size = length_of(axis);
+    const double size = glm::length(axis);
     if (size < 1e-12) return {};
-    const glm::dvec3 h = axis / size;
-    // |u + rotated v| = distance:  along + b cos(f) + c sin(f) = wanted, f the rotation about h.
-    const double wanted = 0.5 * (distance * distance - glm::dot(u, u) - glm::dot(v, v));
-    const double along = glm::dot(u, h) * glm::dot(v, h);
-    const glm::dvec3 across = v - h * glm::dot(v, h);
-    const double b = glm::dot(u, across);
-    const double c = glm::dot(u, glm::cross(h, across));
-    const double most = std::sqrt(b * b + c * c);
-    if (most < 1e-12) return {};
-    // f is the opening to either side of the straight chain, as cosine and sine.
-    const double open = std::clamp((wanted - along) / most, -1.0, 1.0);
-    const double sine = std::sqrt(1.0 - open * open);
-    const auto turn = [&](double side) {
-        const glm::dvec2 f((b * open + side * c * sine) / most, (c * open - side * b * sine) / most);
-        // Half of it, along the shorter arc.
-        const double cosine = std::sqrt(std::max(0.0, 0.5 * (1.0 + f.x)));
-        return cosine > 1e-9 ? glm::normalize(glm::dquat(cosine, h * (0.5 * f.y / cosine))) : glm::dquat(0.0, h);
+    const Vector rest = vector_of(problem.tip - link.position);
+    Bend bend{};
+    bend.bone = vector_of(link.position - problem.origin);
+    bend.axis = vector_of(axis / size);
+    find_fixed_bend(rest, bend);
+    find_opening(rest, distance * distance, bend);
+    if (bend.most < 1e-24) return {};
+    if (!(bend.opening > 0.0)) {  // straight, or folded
+        bend.wanted = std::copysign(std::sqrt(bend.most), bend.wanted);
+        bend.opening = 0.0;
+    }
+    Turn turns[2];
+    find_turns(bend, true, prefers_back(link.constraint), turns);
+    const auto found = [&](const Turn& turn) {
+        Rotation q{0.0, 0.0, 0.0, 1.0};
+        const bool is_clear = turn_middle(bend, turn, q, q);
+        const glm::dquat by = is_clear ? glm_of(q) : glm::dquat(0.0, axis / size);
+        return MiddleTurn{by, illegality(problem, middle, by)};
     };
-    const MiddleTurn one{turn(-1.0), illegality(problem, middle, turn(-1.0))};  // a straight chain bends in the axis's
-                                                                                // direction
-    const MiddleTurn other{turn(1.0), illegality(problem, middle, turn(1.0))};
-    const double excess = one.illegality - other.illegality;
-    const bool is_smaller =
-        std::abs(other.turn.w - one.turn.w) > kSameTurn ? other.turn.w > one.turn.w : prefers_back(link.constraint);
-    return excess > kSameTurn || (excess > -kSameTurn && is_smaller) ? other : one;
+    const MiddleTurn smaller = found(turns[0]);
+    if (smaller.illegality <= kSameTurn) return smaller;
+    const MiddleTurn other = found(turns[1]);
+    return smaller.illegality - other.illegality > kSameTurn ? other : smaller;
 }
 
 /// Turns the middle joint so that the distance of the tip from the start is as near as possible to `distance`.
@@ -146,7 +136,7 @@ glm::dquat pole_turn(const IkProblem& problem, const glm::dvec3& knee, const glm
     const auto across = [&](const glm::dvec3& v) { return v - axis * glm::dot(axis, v); };
     const glm::dvec3 bend = across(knee);
     glm::dvec3 pole = across(problem.pole - problem.origin);
-    if (length_of(bend) < 1e-9 || length_of(pole) < 1e-9) return {1.0, 0.0, 0.0, 0.0};
+    if (glm::length(bend) < 1e-9 || glm::length(pole) < 1e-9) return {1.0, 0.0, 0.0, 0.0};
     if (problem.pole_angle != 0.0) pole = from_vector(axis * problem.pole_angle) * pole;
     const glm::dquat turn = between(bend, pole);
     return turn.w > 1e-6 ? turn : glm::dquat(0.0, axis);  // half a turn must be about this axis
@@ -161,10 +151,10 @@ bool prefers_back(const Constraint* constraint) {
 void soften_target(IkProblem& problem) {
     const std::size_t middle = find_middle(problem);
     const glm::dvec3 way = problem.target - problem.origin;
-    const double distance = length_of(way);
+    const double distance = glm::length(way);
     if (middle == 0 || !(distance > 1e-12)) return;
     const glm::dvec3& knee = problem.links[middle].position;
-    const double full = length_of(knee - problem.origin) + length_of(problem.tip - knee);
+    const double full = glm::length(knee - problem.origin) + glm::length(problem.tip - knee);
     const double zone = full * std::clamp(double{problem.options->softness}, 0.0, 1.0);
     const double hard = full - zone;
     if (!(zone > 0.0) || distance <= hard) return;
@@ -176,7 +166,7 @@ std::uint32_t solve_two_bone(IkProblem& problem) {
     const std::size_t middle = find_middle(problem);
     if (middle == 0) return solve_ccd(problem);  // there are not two bones
     const glm::dvec3& knee = problem.links[middle].position;
-    const double distance = length_of(problem.target - problem.origin);
+    const double distance = glm::length(problem.target - problem.origin);
     bend(problem, middle, distance);
     const glm::dvec3 way = problem.target - problem.origin;
     glm::dquat aim = between(problem.tip - problem.origin, way);

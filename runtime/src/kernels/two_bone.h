@@ -1,5 +1,5 @@
-// Two bones in closed form. Included in an unnamed namespace by one source for each kind of Number: a double, or
-// several in lanes, one per limb. The source also defines Mask, a boolean per lane, and the functions of both. All of
+// Two bones in closed form. Included in a namespace of its own for each kind of Number: a double, or several in lanes,
+// one per limb. That namespace also defines Mask, a boolean per lane, and the functions of both. All of
 // them round every operation, so that a lane computes the same bits as a single limb.
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
@@ -116,13 +116,8 @@ BENDY_ALWAYS_INLINE Number mean_of(const Vector& v) {
     return (v.x + v.y + v.z) / 3.0;
 }
 
-struct Limb {
-    Vector base[4];
-    Vector target, pole;
-    Rotation upper, lower;
-    Vector origin, middle, tip, upper_scale, lower_scale, axis;
-    Number same_scale, tolerance, roll_cosine, roll_sine;
-    Mask has_pole, is_pole_point, is_rolled, is_fixed, prefers_back;
+struct Space {
+    Vector x, y, z, origin;
 };
 
 /// Quantities derived from a limb.
@@ -151,80 +146,55 @@ struct Turn {
 
 using Limbs = TwoBoneLimbs<kLimbs>;
 
-template <std::size_t count>
-BENDY_ALWAYS_INLINE Number load_number(const Limbs& limbs, const double (Limbs::*member)[count][kLimbs],
-                                       std::size_t number) {
-    return loaded((limbs.*member)[number]);
+BENDY_ALWAYS_INLINE Number load(const double (&from)[1][kLimbs]) {
+    return loaded(from[0]);
 }
-
-BENDY_ALWAYS_INLINE Vector load_vector(const Limbs& limbs, const double (Limbs::*member)[3][kLimbs]) {
-    return {load_number(limbs, member, 0), load_number(limbs, member, 1), load_number(limbs, member, 2)};
+BENDY_ALWAYS_INLINE Vector load(const double (&from)[3][kLimbs]) {
+    return {loaded(from[0]), loaded(from[1]), loaded(from[2])};
 }
-
-BENDY_ALWAYS_INLINE Rotation load_rotation(const Limbs& limbs, const double (Limbs::*member)[4][kLimbs]) {
-    return {load_number(limbs, member, 0), load_number(limbs, member, 1), load_number(limbs, member, 2),
-            load_number(limbs, member, 3)};
+BENDY_ALWAYS_INLINE Rotation load(const double (&from)[4][kLimbs]) {
+    return {loaded(from[0]), loaded(from[1]), loaded(from[2]), loaded(from[3])};
 }
-
-BENDY_ALWAYS_INLINE Mask load_flag(const Limbs& limbs, const double (Limbs::*member)[1][kLimbs]) {
-    return load_number(limbs, member, 0) > Number(0.0);
+BENDY_ALWAYS_INLINE Mask load_flag(const double (&from)[1][kLimbs]) {
+    return load(from) > Number(0.0);
 }
-
-BENDY_ALWAYS_INLINE Limb load_limb(const Limbs& limbs) {
-    Limb limb;
-    limb.base[0] = load_vector(limbs, &Limbs::base_x);
-    limb.base[1] = load_vector(limbs, &Limbs::base_y);
-    limb.base[2] = load_vector(limbs, &Limbs::base_z);
-    limb.base[3] = load_vector(limbs, &Limbs::base_origin);
-    limb.target = load_vector(limbs, &Limbs::target);
-    limb.pole = load_vector(limbs, &Limbs::pole);
-    limb.upper = load_rotation(limbs, &Limbs::upper);
-    limb.lower = load_rotation(limbs, &Limbs::lower);
-    limb.origin = load_vector(limbs, &Limbs::origin);
-    limb.middle = load_vector(limbs, &Limbs::middle);
-    limb.tip = load_vector(limbs, &Limbs::tip);
-    limb.upper_scale = load_vector(limbs, &Limbs::upper_scale);
-    limb.lower_scale = load_vector(limbs, &Limbs::lower_scale);
-    limb.axis = load_vector(limbs, &Limbs::axis);
-    limb.same_scale = load_number(limbs, &Limbs::same_scale, 0);
-    limb.tolerance = load_number(limbs, &Limbs::tolerance, 0);
-    limb.roll_cosine = load_number(limbs, &Limbs::roll, 0);
-    limb.roll_sine = load_number(limbs, &Limbs::roll, 1);
-    limb.has_pole = load_flag(limbs, &Limbs::has_pole);
-    limb.is_pole_point = load_flag(limbs, &Limbs::is_pole_point);
-    limb.is_rolled = load_flag(limbs, &Limbs::is_rolled);
-    limb.is_fixed = load_flag(limbs, &Limbs::is_fixed);
-    limb.prefers_back = load_flag(limbs, &Limbs::prefers_back);
-    return limb;
+BENDY_ALWAYS_INLINE Space load_base(const Limbs& limb) {
+    return {load(limb.base_x), load(limb.base_y), load(limb.base_z), load(limb.base_origin)};
 }
 
 /// Converts a point from model space to base space; not finite if the base is flat.
-BENDY_ALWAYS_INLINE Vector from_model(const Vector* base, const Vector& point) {
-    const Vector way = point - base[3];
-    const Vector across = cross(base[1], base[2]);
-    const Number volume = 1.0 / dot(base[0], across);
-    return Vector{dot(way, across), dot(way, cross(base[2], base[0])), dot(way, cross(base[0], base[1]))} * volume;
+BENDY_ALWAYS_INLINE Vector from_model(const Space& base, const Vector& point) {
+    const Vector way = point - base.origin;
+    const Vector across = cross(base.y, base.z);
+    const Number volume = 1.0 / dot(base.x, across);
+    return Vector{dot(way, across), dot(way, cross(base.z, base.x)), dot(way, cross(base.x, base.y))} * volume;
+}
+
+/// Converts a vector from base space to model space.
+BENDY_ALWAYS_INLINE Vector to_model(const Space& base, const Vector& way) {
+    return base.x * way.x + base.y * way.y + base.z * way.z;
 }
 
 /// Returns the tolerance in base space, given that in metres, if there is one, and the limb's length in base space.
-BENDY_ALWAYS_INLINE Number tolerance_in(const Vector* base, Number metres, Number length) {
+BENDY_ALWAYS_INLINE Number tolerance_in(const Space& base, Number metres, Number length) {
     constexpr double kOfLength = 1e-4, kLeast = 1e-9;
-    const Number scale = greater(squared(base[0]), greater(squared(base[1]), squared(base[2])));
+    const Number scale = greater(squared(base.x), greater(squared(base.y), squared(base.z)));
     return chosen(metres > Number(0.0), greater(metres / root(scale), kLeast * length), kOfLength * length);
 }
 
 /// Finds the bones and the way to the target. False if these are not two bones of even scale.
-BENDY_ALWAYS_INLINE Mask begin(const Limb& limb, Reaching& reach, Bend& bend) {
-    reach.upper = limb.upper;
-    reach.lower = limb.lower;
+BENDY_ALWAYS_INLINE Mask begin(const Limbs& limb, Reaching& reach, Bend& bend) {
+    reach.upper = load(limb.upper);
+    reach.lower = load(limb.lower);
+    const Vector upper_scale = load(limb.upper_scale), lower_scale = load(limb.lower_scale);
+    const Number same = load(limb.same_scale);
     const Mask are_units = both(normalize_local(reach.upper), normalize_local(reach.lower));
-    reach.way = from_model(limb.base, limb.target) - limb.origin;
+    reach.way = from_model(load_base(limb), load(limb.target)) - load(limb.origin);
     reach.distance = squared(reach.way);
-    bend.axis = limb.axis;
-    bend.bone = scaled(limb.upper_scale, limb.middle);
-    reach.rest = turned(reach.lower, scaled(limb.lower_scale * mean_of(limb.upper_scale), limb.tip));
-    return both(are_units,
-                both(is_even(limb.upper_scale, limb.same_scale), is_even(limb.lower_scale, limb.same_scale)));
+    bend.axis = load(limb.axis);
+    bend.bone = scaled(upper_scale, load(limb.middle));
+    reach.rest = turned(reach.lower, scaled(lower_scale * mean_of(upper_scale), load(limb.tip)));
+    return both(are_units, both(is_even(upper_scale, same), is_even(lower_scale, same)));
 }
 
 constexpr double kStraight = 1e-8;
@@ -252,6 +222,16 @@ BENDY_ALWAYS_INLINE void find_fixed_bend(const Vector& rest, Bend& bend) {
     bend.most = bend.b * bend.b + bend.c * bend.c;
 }
 
+/// Finds how far a bend opens for the tip to be that far from the start, squared. Returns what is left of the rotated
+/// bone: negative if the limb cannot have that length.
+BENDY_ALWAYS_INLINE Number find_opening(const Vector& rest, Number distance, Bend& bend) {
+    const Number along = dot(bend.bone, bend.along);
+    bend.wanted = 0.5 * (distance - squared(bend.bone) - squared(rest)) - along;
+    const Number left = bend.most - bend.wanted * bend.wanted;
+    bend.opening = root(left);
+    return left;
+}
+
 /// Completes a bend whose `bone` and, if it is fixed, `axis` are set. False if the limb is straight or cannot have the
 /// length that it needs.
 BENDY_ALWAYS_INLINE Mask find_bend(const Reaching& reach, Mask is_fixed, Bend& bend) {
@@ -266,10 +246,7 @@ BENDY_ALWAYS_INLINE Mask find_bend(const Reaching& reach, Mask is_fixed, Bend& b
     bend.b = chosen(is_fixed, fixed.b, bend.b);
     bend.c = chosen(is_fixed, fixed.c, bend.c);
     bend.most = chosen(is_fixed, fixed.most, bend.most);
-    const Number along = dot(bend.bone, bend.along);
-    bend.wanted = 0.5 * (reach.distance - squared(bend.bone) - squared(reach.rest)) - along;
-    const Number left = bend.most - bend.wanted * bend.wanted;
-    bend.opening = root(left);
+    const Number left = find_opening(reach.rest, reach.distance, bend);
     return both(is_bent, both(bend.most > kStraight * sizes, left > kStraight * bend.most));
 }
 
@@ -316,21 +293,24 @@ BENDY_ALWAYS_INLINE Mask aim_start(const Vector& reached, const Reaching& reach,
 }
 
 /// Rotates the start from the tip's direction and the knee's side to the target's direction and the pole's side.
-BENDY_ALWAYS_INLINE Mask aim_with_pole(const Limb& limb, const Bend& bend, const Vector& reached, const Reaching& reach,
-                                       Rotation& upper) {
-    const Vector pole = chosen(limb.is_pole_point, from_model(limb.base, limb.pole) - limb.origin, limb.pole);
+BENDY_ALWAYS_INLINE Mask aim_with_pole(const Limbs& limb, const Bend& bend, const Vector& reached,
+                                       const Reaching& reach, Rotation& upper) {
+    const Mask is_fixed = load_flag(limb.is_fixed), is_rolled = load_flag(limb.is_rolled);
+    const Vector place = load(limb.pole);
+    const Vector pole =
+        chosen(load_flag(limb.is_pole_point), from_model(load_base(limb), place) - load(limb.origin), place);
     Vector to_z;
     Mask is_clear = find_normal(reach.way, pole, to_z);
     Vector from_z = bend.axis * -1.0;
-    if (is_any(limb.is_fixed)) {
+    if (is_any(is_fixed)) {
         Vector normal;
-        is_clear = both(is_clear, either(find_normal(reached, bend.bone, normal), opposite(limb.is_fixed)));
-        from_z = chosen(limb.is_fixed, normal, from_z);
+        is_clear = both(is_clear, either(find_normal(reached, bend.bone, normal), opposite(is_fixed)));
+        from_z = chosen(is_fixed, normal, from_z);
     }
     const Number unit = 1.0 / root(reach.distance);
     const Vector from_x = reached * unit, to_x = reach.way * unit;
-    if (is_any(limb.is_rolled)) {
-        to_z = chosen(limb.is_rolled, rolled(to_z, to_x, limb.roll_cosine, limb.roll_sine), to_z);
+    if (is_any(is_rolled)) {
+        to_z = chosen(is_rolled, rolled(to_z, to_x, loaded(limb.roll[0]), loaded(limb.roll[1])), to_z);
     }
     const Vector from_y = cross(from_z, from_x), to_y = cross(to_z, to_x);
     upper = rotation_of(to_x * from_x.x + to_y * from_y.x + to_z * from_z.x,
@@ -341,25 +321,25 @@ BENDY_ALWAYS_INLINE Mask aim_with_pole(const Limb& limb, const Bend& bend, const
 
 /// Completes a reach after the middle joint's turn. Returns the distance from the tip to the target in metres; negative
 /// if that is outside the tolerance.
-BENDY_ALWAYS_INLINE Number finish(const Limb& limb, const Bend& bend, const Turn& turn, Reaching& reach) {
+BENDY_ALWAYS_INLINE Number finish(const Limbs& limb, const Bend& bend, const Turn& turn, Reaching& reach) {
     const Vector reached = tip_after(bend, turn);
     const Rotation before = reach.upper;
-    Mask is_aimed = limb.has_pole;
-    if (is_any(limb.has_pole)) is_aimed = both(aim_with_pole(limb, bend, reached, reach, reach.upper), limb.has_pole);
-    if (!is_every(limb.has_pole)) {
+    const Mask has_pole = load_flag(limb.has_pole);
+    Mask is_aimed = has_pole;
+    if (is_any(has_pole)) is_aimed = both(aim_with_pole(limb, bend, reached, reach, reach.upper), has_pole);
+    if (!is_every(has_pole)) {
         Rotation upper = before;
-        const Mask is_straight = both(aim_start(reached, reach, upper), opposite(limb.has_pole));
-        is_aimed = either(is_aimed, is_straight);
-        reach.upper = chosen(limb.has_pole, reach.upper, upper);
+        is_aimed = either(is_aimed, both(aim_start(reached, reach, upper), opposite(has_pole)));
+        reach.upper = chosen(has_pole, reach.upper, upper);
     }
+    const Space base = load_base(limb);
     const Number length = root(squared(bend.bone)) + root(squared(reach.rest));
     const Number distance = root(reach.distance);
     const Number left = absolute(root(squared(reached)) - distance);  // the direction is already right
-    const Number tolerance = tolerance_in(limb.base, limb.tolerance, length);
-    const Vector missed = reach.way * (left / distance);
-    const Vector in_model = limb.base[0] * missed.x + limb.base[1] * missed.y + limb.base[2] * missed.z;
+    const Number tolerance = tolerance_in(base, load(limb.tolerance), length);
+    const Vector missed = to_model(base, reach.way * (left / distance));
     const Mask is_there = both(is_aimed, both(left <= tolerance, squared(reach.upper) > Number(0.5)));
-    return chosen(is_there, root(squared(in_model)), -1.0);
+    return chosen(is_there, root(squared(missed)), -1.0);
 }
 
 // NOLINTEND(misc-definitions-in-headers)

@@ -100,14 +100,15 @@ inline void store(const Rotation& rotation, double (&to)[4][kLimbs]) {
 }
 
 inline void solve(TwoBoneBlock& block) {
-    const Limb limb = load_limb(block.limbs);
+    const Limbs& limb = block.limbs;
+    const Mask is_fixed = load_flag(limb.is_fixed);
     Reaching reach;
     Bend bend{};
     Turn turns[2];
     const Mask are_plain = begin(limb, reach, bend);
     const Rotation before = reach.lower;
-    const Mask can_bend = find_bend(reach, limb.is_fixed, bend);
-    find_turns(bend, limb.is_fixed, limb.prefers_back, turns);
+    const Mask can_bend = find_bend(reach, is_fixed, bend);
+    find_turns(bend, is_fixed, load_flag(limb.prefers_back), turns);
     const Mask is_turned = turn_middle(bend, turns[0], before, reach.lower);
     const Number distance = finish(limb, bend, turns[0], reach);
     store(reach.upper, block.upper);

@@ -4,10 +4,24 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 // Rotations in double precision, for the constraints and the IK solvers.
 namespace bendy {
+
+/// Returns a value of a file, clamped to [low, high]; `otherwise` if it is NaN.
+inline double clamped(double value, double low, double high, double otherwise) {
+    return std::isnan(value) ? otherwise : std::clamp(value, low, high);
+}
+
+/// Returns a rotation of a file (x y z w) with unit length; the identity if that would be meaningless.
+inline glm::dquat unit_or_identity(const std::array<float, 4>& rotation) {
+    const glm::dquat q(rotation[3], rotation[0], rotation[1], rotation[2]);
+    const double length = glm::length(q);
+    return length > 1e-3 && length < 1e3 ? q / length : glm::dquat(1.0, 0.0, 0.0, 0.0);
+}
 
 /// Returns the same rotation with w >= 0.
 inline glm::dquat upper_half(const glm::dquat& q) {

@@ -52,6 +52,10 @@ struct PosePlan {
     std::vector<SamplePlan> clips;
     /// True if floats are accurate enough for joint matrices: no long chains, and no large offsets that cancel.
     bool fits_floats = false;
+
+    [[nodiscard]] bool is_at_or_below(std::uint32_t joint, std::uint32_t ancestor) const {
+        return ancestor <= joint && joint < subtree_ends[ancestor];
+    }
 };
 
 PosePlan make_pose_plan(const ObjectView& object, std::span<const Joint> joints);
