@@ -6,6 +6,7 @@
 #include "lookup.h"
 
 #include <bendy/format/names.h>
+#include <bendy/format/role.h>
 
 #include <algorithm>
 #include <span>
@@ -113,9 +114,8 @@ bendy_status bendy::capi::get_joint(const bendy_model* model, uint32_t joint, be
     to_c(model->get().joints()[joint], out);
     out.name = names.joints[joint].c_str();
     out.extras = names.joint_extras[joint].c_str();
-    const auto roles = model->get().roles();  // ascending by joint
-    const auto role = std::partition_point(roles.begin(), roles.end(), [&](const auto& of) { return of.joint < joint; });
-    if (role == roles.end() || role->joint != joint) return BENDY_OK;
+    const bendy::RoleRecord* role = bendy::role_of(model->get().roles(), joint);
+    if (role == nullptr) return BENDY_OK;
     out.role = role->role;
     out.role_place = role->place;
     return BENDY_OK;
