@@ -28,7 +28,7 @@ done
 cp build/cross/web/build/web/{bindings,classes}.ts bindings/web/src/generated/
 cd bindings/web
 [ -e node_modules/playcanvas ] || npm ci --silent
-# The last number: most bytes by brotli. 12,500 of them are retargeting, measured bodies and feet included.
+# The last number is the most bytes by brotli; 12,500 of the runtime's are retargeting.
 node embed.mjs ../../build/cross/web/build/web/bendy.wasm src/generated/simd.ts 172000
 node embed.mjs ../../build/cross/web-plain/build/web/bendy.wasm src/generated/plain.ts 179000
 rm -rf dist

@@ -552,7 +552,7 @@ test('clips: a sensible one first, lengths, a search, and the one that plays is 
 async function dropAt(y, files) {
   await tab.evaluate(() => (document.getElementById('status').textContent = ''));
   const session = await tab.createCDPSession();
-  for (const type of ['dragEnter', 'dragOver', 'drop']) {
+  for (const type of ['dragEnter', 'dragOver', 'dragOver', 'drop']) {
     await session.send('Input.dispatchDragEvent', { type, x: 400, y, data: { items: [], files, dragOperationsMask: 1 } });
     if (type === 'dragOver') await tab.waitForFunction(() => !document.getElementById('drop').hidden);
   }
