@@ -250,7 +250,7 @@ typedef struct bendy_joint {
     bendy_transform rest;
     float shear[3];      /* xy, xz, yz: the elements above the diagonal of the scale matrix */
     const char* extras;  /* added later, as all below */
-    uint32_t role;       /* a bendy_role */
+    uint32_t role;       /* a bendy_role: what the joint is in the body */
     uint32_t role_place; /* place in the chain, ascending from the body outwards; 0 for the other roles */
 } bendy_joint;
 
