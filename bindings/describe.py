@@ -17,6 +17,7 @@ Some of the header's forms are machine-readable:
   field               with "added later, as all below" in its comment: the first version of the struct ended before it
   const float* mask   with "bendy_joint_count numbers" in its comment: an array of so many; so with a field of the part that is named
                       before it, "bendy_mesh.targets numbers"
+  bendy_pose* pose    with "of another model" in its comment: it need not be of the model of the handles before it
   function            with "elsewhere: NAME" in its comment: its name in the classes of other languages
   parameter           with "elsewhere: VALUE if not given" in its comment: its default in other languages
   const char* extras, more, extensions    JSON, which other languages parse

@@ -21,7 +21,7 @@ import describe  # noqa: E402
 PARTS = dict.fromkeys(("joint", "clip", "chain", "morph_target", "mesh", "submesh", "joint_submesh", "material", "texture", "constraint"))
 PARTS.update(track="clip", marker="clip", curve="clip", frame_sequence="clip", stream="mesh", image="texture")
 # Handles that do not belong to a model.
-WITHOUT_MODEL = ("bendy_playback", "bendy_fade")
+WITHOUT_MODEL = ("bendy_playback", "bendy_fade", "bendy_retarget_state")
 HEAD = "// Made from bendy.h by bindings/make_c.py.\n"
 
 
@@ -73,7 +73,7 @@ class Call:
     def check_handle(self, one):
         if not one.may_be_null:
             self.require(f'check_pointer({one.name}, "{one.name}", error)')
-        if one.type.name in WITHOUT_MODEL:
+        if one.type.name in WITHOUT_MODEL or "of another model" in one.doc:
             return
         if self.subject and one.type.name != "bendy_model":
             self.require(f'check_same_model({one.name}, *{self.subject}, "{one.name}", "{self.subject}", error)')

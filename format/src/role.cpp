@@ -66,4 +66,16 @@ std::span<const RoleRecord> read_roles(const ChunkTree& tree, std::uint32_t obje
     return faults.count() == faults_before ? roles : std::span<const RoleRecord>();
 }
 
+const RoleRecord* role_of(std::span<const RoleRecord> roles, std::uint32_t joint) {
+    const auto record = std::partition_point(roles.begin(), roles.end(),
+                                             [joint](const RoleRecord& other) { return other.joint < joint; });
+    return record == roles.end() || record->joint != joint ? nullptr : &*record;
+}
+
+std::string role_text(const RoleRecord& record) {
+    std::string text(kValueNames<Role>[record.role]);
+    if (record.role >= static_cast<unsigned>(kFirstChainRole)) text += ' ' + std::to_string(record.place);
+    return text;
+}
+
 }  // namespace bendy

@@ -4,13 +4,16 @@
 Everything that <bendy/runtime.h> and the format's views behind it declare in public must have a line in the list: the
 declaration, ` -> `, and its counterparts in bendy.h (functions, structs, struct.field, enumerations, constants), or a reason
 in parentheses why C has none. `*::field` stands for that field of every type. No line is needed for a field whose struct has a
-counterpart with a field of that name, nor for what a type without a counterpart has. An enumeration must have as many values as
+counterpart with a field of that name, nor for what a type without a counterpart has. An enumeration must have the same values as
 its counterpart."""
 
 import argparse
 import re
 import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bindings"))
+import describe  # noqa: E402
 
 # Of the format's headers, the types that a Model hands out.
 VIEWS = {
@@ -24,7 +27,7 @@ VIEWS = {
     "material.h": ["MaterialView", "ImageView", "TextureView"],
     "mesh.h": ["StreamView", "PaletteView", "MorphTargetView", "AttributeView", "MeshView"],
     "records.h": ["SamplerRecord", "SameRecord", "TextureUseRecord", "SurfaceRecord", "ConstraintRecord", "ChainRecord",
-                  "ChainWeightRecord", "PlayRecord",
+                  "ChainWeightRecord", "PlayRecord", "RoleRecord", "Role",
                   "ComponentType", "Topology", "TrackPath", "Interpolation", "CurveTarget", "Filter", "Wrap", "AlphaMode",
                   "MediaType", "ConstraintModel", "EulerOrder", "ConstraintScope", "Solver"],
 }
@@ -101,7 +104,7 @@ def fields_of(head):
 
 
 def declared(text, owner="", is_public=True):
-    """{name: number of values of an enumeration, or None} of what the text declares in public."""
+    """{name: the values of an enumeration, or None} of what the text declares in public."""
     found = {}
     prefix = owner + "::" if owner else ""
     for head, body in statements(text):
@@ -113,7 +116,7 @@ def declared(text, owner="", is_public=True):
             continue
         if match := re.match(r"enum class (\w+)", head):
             if body is not None:
-                found[prefix + match[1]] = len([value for value in body.split(",") if value.strip()])
+                found[prefix + match[1]] = re.findall(r"(\w+)[^,]*", body)
             continue
         if match := re.match(r"(class|struct) (?:alignas\(\d+\) )?(\w+)", head):
             if body is None:
@@ -162,25 +165,23 @@ def in_cpp(source):
         if header == "records.h":  # makes its enumerations from a table
             table = (source / "format/include/bendy/format/records.def").read_text()
             rows = re.findall(r"^BENDY_VALUES\((\w+), \w+, (.+)\)$", table, re.M)
-            names.update({name: len(values.split(",")) for name, values in rows})
+            names.update({name: values.split(", ") for name, values in rows})
         found.update({name: values for name, values in names.items() if name.split("::")[0] in types})
     return found
 
 
 def in_c(source):
-    """({names}, {struct: fields}, {enumeration: number of values}) of bendy.h."""
-    text = re.sub(r"/\*.*?\*/", "", (source / "bindings/c/include/bendy.h").read_text(), flags=re.S)
+    """({names}, {struct: fields}, {enumeration: values as other languages have them}) of bendy.h."""
+    header = source / "bindings/c/include/bendy.h"
+    text = re.sub(r"/\*.*?\*/", "", header.read_text(), flags=re.S)
     names = set(re.findall(r"^BENDY_API [^;(]*?(bendy_\w+)\(", text, re.M))
     names |= set(re.findall(r"^#define (BENDY_\w+)", text, re.M)) | set(re.findall(r"^typedef struct \w+ (\w+);", text, re.M))
     names |= set(re.findall(r"^typedef void \(\*(\w+)\)", text, re.M))
     structs = {name: set(re.findall(r"(\w+)(?:\[\w+\])?;", body))
                for name, body in re.findall(r"typedef struct (bendy_\w+) \{(.*?)\} \1;", text, re.S)}
-    enums = {}
-    for name, body in re.findall(r"typedef enum (\w+) \{(.*?)\}", text, re.S):
-        values = re.findall(r"BENDY_\w+", body)
-        enums[name] = len(values)
-        names |= set(values)
-    return names, structs, enums
+    enums = describe.read(header).enums.values()
+    names |= {name for enum in enums for name, _, _ in enum.values}
+    return names, structs, {enum.name: enum.words for enum in enums}
 
 
 def read_list(path):
@@ -206,7 +207,7 @@ def check_parser():
         template <class T> void visit(std::span<const T> all, const Plain& plain = {}) { if (all.empty()) { return; } }
         inline constexpr int kMost = 4;
         int late(Kind kind);""")
-    expected = {"Kind": 2, "Plain": None, "Plain::x": None, "Plain::y": None, "Plain::many": None, "Hidden": None,
+    expected = {"Kind": ["a", "b"], "Plain": None, "Plain::x": None, "Plain::y": None, "Plain::many": None, "Hidden": None,
                 "Hidden::Hidden(const Plain& p)": None, "Hidden::get(int k)": None, "Hidden::operator==(const Hidden& other)": None,
                 "visit(std::span<const T> all, const Plain& plain)": None, "kMost": None, "late(Kind kind)": None}
     if found != expected:
@@ -252,7 +253,7 @@ def main():
         faults += [f"{name} -> {counterpart}: bendy.h has no such thing" for counterpart in counterparts if not exists(counterpart)]
         values = enums.get(counterparts[0])
         if cpp.get(name) is not None and values is not None and values != cpp[name]:
-            faults.append(f"{name} has {cpp[name]} values, {counterparts[0]} has {values}")
+            faults.append(f"{name} has the values {cpp[name]}, {counterparts[0]} has {values}")
     for fault in faults:
         print(fault)
     return 1 if faults or not cpp else 0

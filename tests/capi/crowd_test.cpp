@@ -1,6 +1,7 @@
 // Bindings of another file's clips, crowds, copies of poses, and kernels through the C API.
 #include "capi/open_handles.h"
 #include "mutation/allocations.h"
+#include "runtime/human_model.h"
 
 #include <array>
 #include <cmath>
@@ -403,6 +404,10 @@ TEST_F(CCrowd, MemoryThatRunsOutIsAnErrorInEveryConstructor) {
     make_without_memory<BoundsHandle>([&](bendy_error* e) { return bendy_bounds_new(m, e); });
     make_without_memory<BindingHandle>([&](bendy_error* e) { return bendy_binding_new(m, m, nullptr, e); });
     make_without_memory<CrowdHandle>([&](bendy_error* e) { return bendy_crowd_new(m, 3, e); });
+    make_without_memory<RetargetStateHandle>([](bendy_error* e) { return bendy_retarget_state_new(e); });
+    const ModelHandle human = open_copy(HumanModel(HumanSpec{}).file());
+    const bendy_model* const h = human.get();
+    make_without_memory<RetargetHandle>([&](bendy_error* e) { return bendy_retarget_new(h, h, nullptr, e); });
 }
 #endif
 

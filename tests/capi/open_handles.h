@@ -22,6 +22,8 @@ struct FreeHandle {
     void operator()(bendy_root_path* path) const { bendy_root_path_free(path); }
     void operator()(bendy_bounds* bounds) const { bendy_bounds_free(bounds); }
     void operator()(bendy_binding* binding) const { bendy_binding_free(binding); }
+    void operator()(bendy_retarget* retarget) const { bendy_retarget_free(retarget); }
+    void operator()(bendy_retarget_state* state) const { bendy_retarget_state_free(state); }
     void operator()(bendy_crowd* crowd) const { bendy_crowd_free(crowd); }
 };
 using ModelHandle = std::unique_ptr<bendy_model, FreeHandle>;
@@ -33,6 +35,8 @@ using CrossfadeHandle = std::unique_ptr<bendy_crossfade, FreeHandle>;
 using RootPathHandle = std::unique_ptr<bendy_root_path, FreeHandle>;
 using BoundsHandle = std::unique_ptr<bendy_bounds, FreeHandle>;
 using BindingHandle = std::unique_ptr<bendy_binding, FreeHandle>;
+using RetargetHandle = std::unique_ptr<bendy_retarget, FreeHandle>;
+using RetargetStateHandle = std::unique_ptr<bendy_retarget_state, FreeHandle>;
 using CrowdHandle = std::unique_ptr<bendy_crowd, FreeHandle>;
 
 inline ModelHandle open_copy(Bytes file) {

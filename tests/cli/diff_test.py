@@ -69,6 +69,16 @@ class Diff(Case):
         self.assertRegex(line, r'^! HEAD/OBJE/VECT/POSI "Body": 4 of 10,389 numbers differ, by up to 9\d\.\d+; '
                                r"the first: element 5, component 1: \S+ -> 100$")
 
+    def test_roles_are_compared_joint_by_joint(self):
+        changed = self.folder / "roles.bendy"
+        self.done("edit", self.convert(), "--role", "jaw=mixamorig:Head", "--role", "neck=", "-o", changed)
+        self.assertEqual(self.differ(self.convert(), changed),
+                         ['! HEAD/OBJE/ROLE "Scene": joint 7 "mixamorig:Neck": "neck" -> none',
+                          '! HEAD/OBJE/ROLE "Scene": joint 8 "mixamorig:Head": "head" -> "jaw"'])
+        tail = self.folder / "tail.bendy"
+        self.done("edit", changed, "--role", "tail:2=mixamorig:Neck", "-o", tail)
+        self.assertEqual(self.differ(changed, tail), ['! HEAD/OBJE/ROLE "Scene": joint 7 "mixamorig:Neck": none -> "tail 2"'])
+
     def test_texts_are_shown(self):
         def change(root):
             root.find("HEAD/OBJE/CYCL/NAME").payload = b"Wave\n"

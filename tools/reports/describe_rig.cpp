@@ -190,13 +190,8 @@ std::string RigIndex::role_of(std::uint32_t chunk) const {
     if (view == nullptr) return {};
     const Object& object = *object_of(chunk);
     const auto joint = static_cast<std::uint32_t>(view - object.skeleton.joints.data());
-    const auto record =
-        std::lower_bound(object.roles.begin(), object.roles.end(), joint,
-                         [](const RoleRecord& role, std::uint32_t other) { return role.joint < other; });
-    if (record == object.roles.end() || record->joint != joint) return {};
-    std::string text(name_at(kValueNames<Role>, record->role));
-    if (record->role >= static_cast<std::uint16_t>(kFirstChainRole)) text += ' ' + std::to_string(record->place);
-    return text;
+    const RoleRecord* record = bendy::role_of(object.roles, joint);
+    return record == nullptr ? std::string() : role_text(*record);
 }
 
 std::string RigIndex::links_text(const Object& object, std::uint32_t chain, const ChainRecord& record) const {

@@ -173,13 +173,85 @@ typedef struct bendy_transform {
     float scale[3];       /* along the joint's axes; may be negative or zero */
 } bendy_transform;
 
+/* What a joint is in the body, whatever it is called: the bones of VRM; then chains, whose joints are in order from the
+ * body outwards. left is the character's own left. */
+typedef enum bendy_role {
+    BENDY_ROLE_NONE = 0,
+    BENDY_ROLE_HIPS = 1,
+    BENDY_ROLE_SPINE = 2,
+    BENDY_ROLE_CHEST = 3,
+    BENDY_ROLE_UPPER_CHEST = 4,
+    BENDY_ROLE_NECK = 5,
+    BENDY_ROLE_HEAD = 6,
+    BENDY_ROLE_LEFT_EYE = 7,
+    BENDY_ROLE_RIGHT_EYE = 8,
+    BENDY_ROLE_JAW = 9,
+    BENDY_ROLE_LEFT_UPPER_LEG = 10,
+    BENDY_ROLE_LEFT_LOWER_LEG = 11,
+    BENDY_ROLE_LEFT_FOOT = 12,
+    BENDY_ROLE_LEFT_TOES = 13,
+    BENDY_ROLE_RIGHT_UPPER_LEG = 14,
+    BENDY_ROLE_RIGHT_LOWER_LEG = 15,
+    BENDY_ROLE_RIGHT_FOOT = 16,
+    BENDY_ROLE_RIGHT_TOES = 17,
+    BENDY_ROLE_LEFT_SHOULDER = 18,
+    BENDY_ROLE_LEFT_UPPER_ARM = 19,
+    BENDY_ROLE_LEFT_LOWER_ARM = 20,
+    BENDY_ROLE_LEFT_HAND = 21,
+    BENDY_ROLE_RIGHT_SHOULDER = 22,
+    BENDY_ROLE_RIGHT_UPPER_ARM = 23,
+    BENDY_ROLE_RIGHT_LOWER_ARM = 24,
+    BENDY_ROLE_RIGHT_HAND = 25,
+    BENDY_ROLE_LEFT_THUMB_METACARPAL = 26,
+    BENDY_ROLE_LEFT_THUMB_PROXIMAL = 27,
+    BENDY_ROLE_LEFT_THUMB_DISTAL = 28,
+    BENDY_ROLE_LEFT_INDEX_PROXIMAL = 29,
+    BENDY_ROLE_LEFT_INDEX_INTERMEDIATE = 30,
+    BENDY_ROLE_LEFT_INDEX_DISTAL = 31,
+    BENDY_ROLE_LEFT_MIDDLE_PROXIMAL = 32,
+    BENDY_ROLE_LEFT_MIDDLE_INTERMEDIATE = 33,
+    BENDY_ROLE_LEFT_MIDDLE_DISTAL = 34,
+    BENDY_ROLE_LEFT_RING_PROXIMAL = 35,
+    BENDY_ROLE_LEFT_RING_INTERMEDIATE = 36,
+    BENDY_ROLE_LEFT_RING_DISTAL = 37,
+    BENDY_ROLE_LEFT_LITTLE_PROXIMAL = 38,
+    BENDY_ROLE_LEFT_LITTLE_INTERMEDIATE = 39,
+    BENDY_ROLE_LEFT_LITTLE_DISTAL = 40,
+    BENDY_ROLE_RIGHT_THUMB_METACARPAL = 41,
+    BENDY_ROLE_RIGHT_THUMB_PROXIMAL = 42,
+    BENDY_ROLE_RIGHT_THUMB_DISTAL = 43,
+    BENDY_ROLE_RIGHT_INDEX_PROXIMAL = 44,
+    BENDY_ROLE_RIGHT_INDEX_INTERMEDIATE = 45,
+    BENDY_ROLE_RIGHT_INDEX_DISTAL = 46,
+    BENDY_ROLE_RIGHT_MIDDLE_PROXIMAL = 47,
+    BENDY_ROLE_RIGHT_MIDDLE_INTERMEDIATE = 48,
+    BENDY_ROLE_RIGHT_MIDDLE_DISTAL = 49,
+    BENDY_ROLE_RIGHT_RING_PROXIMAL = 50,
+    BENDY_ROLE_RIGHT_RING_INTERMEDIATE = 51,
+    BENDY_ROLE_RIGHT_RING_DISTAL = 52,
+    BENDY_ROLE_RIGHT_LITTLE_PROXIMAL = 53,
+    BENDY_ROLE_RIGHT_LITTLE_INTERMEDIATE = 54,
+    BENDY_ROLE_RIGHT_LITTLE_DISTAL = 55,
+    BENDY_ROLE_SPINE_CHAIN = 56,
+    BENDY_ROLE_NECK_CHAIN = 57,
+    BENDY_ROLE_TAIL = 58,
+    BENDY_ROLE_LEFT_FRONT_LEG = 59,
+    BENDY_ROLE_RIGHT_FRONT_LEG = 60,
+    BENDY_ROLE_LEFT_HIND_LEG = 61,
+    BENDY_ROLE_RIGHT_HIND_LEG = 62,
+    BENDY_ROLE_LEFT_WING = 63,
+    BENDY_ROLE_RIGHT_WING = 64
+} bendy_role;
+
 typedef struct bendy_joint {
     uint32_t size;   /* sizeof, in this struct and those below; set it before the call that fills the struct */
     uint32_t parent; /* or BENDY_NONE */
     const char* name;
     bendy_transform rest;
-    float shear[3];     /* xy, xz, yz: the elements above the diagonal of the scale matrix */
-    const char* extras; /* added later, as all below */
+    float shear[3];      /* xy, xz, yz: the elements above the diagonal of the scale matrix */
+    const char* extras;  /* added later, as all below */
+    uint32_t role;       /* a bendy_role: what the joint is in the body */
+    uint32_t role_place; /* place in the chain, ascending from the body outwards; 0 for the other roles */
 } bendy_joint;
 
 typedef struct bendy_clip {
@@ -1144,6 +1216,75 @@ BENDY_API const uint32_t* bendy_binding_unmatched_joints(const bendy_binding* bi
                                                          bendy_error* error);
 BENDY_API const uint32_t* bendy_binding_unmatched_targets(const bendy_binding* binding, size_t* count,
                                                           bendy_error* error);
+
+/* ---- Retargeting ----------------------------------------------------------------------------------------- */
+
+/* What the rest poses of two models have in common. */
+typedef enum bendy_rest_poses {
+    BENDY_REST_POSES_MEASURED = 0, /* nothing: they are measured, and a limb gets the direction that it has in the
+                                      source */
+    BENDY_REST_POSES_ALIKE = 1 /* both show the same pose, as VRM demands: joints turn exactly as in the source, and the
+                                  hips' travel is scaled by the hips' height */
+} bendy_rest_poses;
+
+typedef struct bendy_retarget_options {
+    uint32_t size;
+    uint32_t rest_poses;       /* a bendy_rest_poses */
+    uint32_t obey_constraints; /* 1: the target's joints stay within their constraints */
+    uint32_t plants_feet; /* 1: feet that touch the ground move as far as the source's, times the length of the legs */
+} bendy_retarget_options;
+
+#define BENDY_RETARGET_OPTIONS_INIT \
+    { sizeof(bendy_retarget_options), BENDY_REST_POSES_MEASURED, 1, 1 }
+
+/* How poses of one model, `source`, become poses of another of different build, `target`: what corresponds is known
+ * from bendy_joint.role, not from names; the rest poses may differ (arms out or down), face other ways and have other
+ * sizes. Joints with a role turn as those of the source do. Joints and morph targets with equal names and no role come
+ * along, such as props and faces. All others keep their rest relative to their parent. Contains work memory, so each
+ * thread needs one of its own; characters of a thread share one. */
+typedef struct bendy_retarget bendy_retarget;
+
+/* Both models need the roles of hips, head, upper and lower arms and legs, hands and feet; otherwise the error says
+ * what is missing. `options` may be NULL. */
+BENDY_API bendy_retarget* bendy_retarget_new(const bendy_model* source, const bendy_model* target,
+                                             const bendy_retarget_options* options /* or NULL */, bendy_error* error);
+BENDY_API void bendy_retarget_free(bendy_retarget* retarget); /* does nothing for NULL */
+/* Returns the target's size as a multiple of the source's, by the length of the legs; 0 for NULL. */
+BENDY_API float bendy_retarget_scale(const bendy_retarget* retarget);
+/* Return, for each joint or morph target of the target, the source's that moves it, or BENDY_NONE. Owned by the
+ * retargeting; NULL for NULL or an empty list. */
+BENDY_API const uint32_t* bendy_retarget_joints(const bendy_retarget* retarget);
+BENDY_API const uint32_t* bendy_retarget_morph_targets(const bendy_retarget* retarget);
+
+/* What a character remembers from one frame to the next: where its feet stand. */
+typedef struct bendy_retarget_state bendy_retarget_state;
+
+BENDY_API bendy_retarget_state* bendy_retarget_state_new(bendy_error* error);
+BENDY_API void bendy_retarget_state_free(bendy_retarget_state* state); /* does nothing for NULL */
+/* Forgets where the feet stand: for a motion that jumps (another clip, a seek). */
+BENDY_API bendy_status bendy_retarget_state_reset(bendy_retarget_state* state, bendy_error* error);
+
+/* What had to give way in a frame. */
+typedef struct bendy_retargeted {
+    uint32_t size;
+    float turned;          /* radians: most that a constraint turned a joint away from where it was to be */
+    uint32_t turned_joint; /* of the target, or BENDY_NONE */
+    float missed;          /* metres: most that a hand or foot is away from where it was to be */
+    uint32_t missed_joint; /* of the target, or BENDY_NONE */
+    float lowered;         /* metres: by how much the hips were lowered so that the feet reach the ground */
+    float contacts[4];     /* 0 in the air, 1 on the ground: left heel, left toes, right heel, right toes; as given or,
+                              otherwise, as found */
+} bendy_retargeted;
+
+/* Sets `pose`, of the target, to a pose of the source. Where neither a constraint nor a contact acts, limbs have the
+ * directions of the source's. What a constraint holds back, the joints below make up for as far as theirs allow. Feet
+ * that stand on the ground are then brought to their places by IK. `contacts` are as in bendy_retargeted; if NULL, they
+ * are found by the height of heel and toes. `result` may be NULL. Fails for numbers that are not finite, and the pose
+ * is then at rest. */
+BENDY_API bendy_status bendy_retarget_pose(bendy_pose* pose, bendy_retarget* retarget,
+                                           bendy_pose* source /* of another model */, bendy_retarget_state* state,
+                                           const float contacts[4] /* or NULL */,
+                                           bendy_retargeted* result /* or NULL */, bendy_error* error);
 
 /* ---- Levels of detail ------------------------------------------------------------------------------------ */
 

@@ -14,9 +14,7 @@ namespace {
 using NumberList = std::span<const std::uint32_t> (Binding::*)() const;
 
 const std::uint32_t* numbers_of(const bendy_binding* binding, NumberList list) {
-    if (binding == nullptr) return nullptr;
-    const auto numbers = (binding->binding.*list)();
-    return numbers.empty() ? nullptr : numbers.data();
+    return binding == nullptr ? nullptr : first_of((binding->binding.*list)());
 }
 
 }  // namespace

@@ -1336,6 +1336,64 @@ const uint32_t* bendy_binding_unmatched_targets(const bendy_binding* binding, si
     return made;
 }
 
+bendy_retarget* bendy_retarget_new(const bendy_model* source, const bendy_model* target,
+                                   const bendy_retarget_options* options, bendy_error* error) {
+    bendy_retarget* made = nullptr;
+    guarded(error, [&]() -> bendy_status {
+        if (const bendy_status status = check_pointer(source, "source", error)) return status;
+        if (const bendy_status status = check_pointer(target, "target", error)) return status;
+        bendy_retarget_options taken_options = BENDY_RETARGET_OPTIONS_INIT;
+        if (const bendy_status status = take(options, "options", taken_options, error)) return status;
+        if (const bendy_status status = check_fields(taken_options, error)) return status;
+        return bendy::capi::retarget_new(source, target, taken_options, made, error);
+    });
+    return made;
+}
+
+void bendy_retarget_free(bendy_retarget* retarget) {
+    delete retarget;
+}
+
+bendy_retarget_state* bendy_retarget_state_new(bendy_error* error) {
+    bendy_retarget_state* made = nullptr;
+    guarded(error, [&]() -> bendy_status { return bendy::capi::retarget_state_new(made, error); });
+    return made;
+}
+
+void bendy_retarget_state_free(bendy_retarget_state* state) {
+    delete state;
+}
+
+bendy_status bendy_retarget_state_reset(bendy_retarget_state* state, bendy_error* error) {
+    return guarded(error, [&]() -> bendy_status {
+        if (const bendy_status status = check_pointer(state, "state", error)) return status;
+        return bendy::capi::retarget_state_reset(state, error);
+    });
+}
+
+bendy_status bendy_retarget_pose(bendy_pose* pose, bendy_retarget* retarget, bendy_pose* source,
+                                 bendy_retarget_state* state, const float* contacts, bendy_retargeted* result,
+                                 bendy_error* error) {
+    return guarded(error, [&]() -> bendy_status {
+        if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
+        if (const bendy_status status = check_pointer(retarget, "retarget", error)) return status;
+        if (const bendy_status status = check_same_model(retarget, *pose, "retarget", "pose", error)) return status;
+        if (const bendy_status status = check_pointer(source, "source", error)) return status;
+        if (const bendy_status status = check_pointer(state, "state", error)) return status;
+        if (const bendy_status status =
+                contacts == nullptr ? BENDY_OK : check_finite(std::span(contacts, 4), "contacts", error))
+            return status;
+        if (const bendy_status status = result == nullptr ? BENDY_OK : check_out(result, "result", error))
+            return status;
+        bendy_retargeted made_result{};
+        if (const bendy_status status =
+                bendy::capi::retarget_pose(pose, retarget, source, state, contacts, made_result, error))
+            return status;
+        if (result != nullptr) put(*result, made_result);
+        return BENDY_OK;
+    });
+}
+
 bendy_lod* bendy_lod_new(const bendy_model* model, bendy_error* error) {
     bendy_lod* made = nullptr;
     guarded(error, [&]() -> bendy_status {

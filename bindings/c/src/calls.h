@@ -166,6 +166,12 @@ bendy_status binding_unmatched_joints(const bendy_binding* binding, size_t* coun
                                       bendy_error* error);
 bendy_status binding_unmatched_targets(const bendy_binding* binding, size_t* count, const uint32_t*& made,
                                        bendy_error* error);
+bendy_status retarget_new(const bendy_model* source, const bendy_model* target, const bendy_retarget_options& options,
+                          bendy_retarget*& made, bendy_error* error);
+bendy_status retarget_state_new(bendy_retarget_state*& made, bendy_error* error);
+bendy_status retarget_state_reset(bendy_retarget_state* state, bendy_error* error);
+bendy_status retarget_pose(bendy_pose* pose, bendy_retarget* retarget, bendy_pose* source, bendy_retarget_state* state,
+                           const float* contacts, bendy_retargeted& result, bendy_error* error);
 bendy_status lod_new(const bendy_model* model, bendy_lod*& made, bendy_error* error);
 bendy_status lod_set_share(bendy_lod* lod, float share, bendy_error* error);
 bendy_status get_lod(const bendy_lod* lod, bendy_lod_info& out, bendy_error* error);

@@ -106,7 +106,7 @@ bendy_status bendy::capi::get_links(const bendy_model* model, uint32_t chain, ui
 }
 
 const uint32_t* bendy_chain_order(const bendy_model* model) {
-    return model == nullptr || model->get().chain_order().empty() ? nullptr : model->get().chain_order().data();
+    return model == nullptr ? nullptr : first_of(model->get().chain_order());
 }
 
 bendy_status bendy::capi::get_joint_submesh(const bendy_model* model, uint32_t joint_submesh, bendy_joint_submesh& out,

@@ -6,6 +6,7 @@
 #include "lookup.h"
 
 #include <bendy/format/names.h>
+#include <bendy/format/role.h>
 
 #include <algorithm>
 #include <span>
@@ -92,7 +93,7 @@ bendy_status bendy::capi::find_texture(const bendy_model* model, const char* nam
 }
 
 const uint32_t* bendy_joint_parents(const bendy_model* model) {
-    return model == nullptr || model->get().parents().empty() ? nullptr : model->get().parents().data();
+    return model == nullptr ? nullptr : first_of(model->get().parents());
 }
 
 const char* bendy_model_name(const bendy_model* model) {
@@ -113,6 +114,10 @@ bendy_status bendy::capi::get_joint(const bendy_model* model, uint32_t joint, be
     to_c(model->get().joints()[joint], out);
     out.name = names.joints[joint].c_str();
     out.extras = names.joint_extras[joint].c_str();
+    const bendy::RoleRecord* role = bendy::role_of(model->get().roles(), joint);
+    if (role == nullptr) return BENDY_OK;
+    out.role = role->role;
+    out.role_place = role->place;
     return BENDY_OK;
 }
 

@@ -60,6 +60,8 @@ struct Fields<bendy_joint> {
         if constexpr (requires { from.parent; }) assign(from.parent, to.parent);
         if constexpr (requires { from.rest; }) assign(from.rest, to.rest);
         if constexpr (requires { from.shear; }) assign(from.shear, to.shear);
+        if constexpr (requires { from.role; }) assign(from.role, to.role);
+        if constexpr (requires { from.role_place; }) assign(from.role_place, to.role_place);
     }
 };
 
@@ -502,6 +504,35 @@ struct Fields<bendy_binding_options> {
         assign(from.translations, to.translations);
         assign(from.root, to.root);
         assign(from.root_scale, to.root_scale);
+    }
+};
+
+template <>
+struct Fields<bendy_retarget_options> {
+    static bendy_status check(const bendy_retarget_options& from, bendy_error* error) {
+        if (const bendy_status status =
+                check_value(from.rest_poses, BENDY_REST_POSES_ALIKE + 1, "rest_poses", "bendy_rest_poses", error))
+            return status;
+        return BENDY_OK;
+    }
+    template <class To>
+    static void from_c(const bendy_retarget_options& from, To& to) {
+        assign(from.rest_poses, to.rest_poses);
+        assign(from.obey_constraints, to.obey_constraints);
+        assign(from.plants_feet, to.plants_feet);
+    }
+};
+
+template <>
+struct Fields<bendy_retargeted> {
+    template <class From>
+    static void to_c(const From& from, bendy_retargeted& to) {
+        if constexpr (requires { from.turned; }) assign(from.turned, to.turned);
+        if constexpr (requires { from.turned_joint; }) assign(from.turned_joint, to.turned_joint);
+        if constexpr (requires { from.missed; }) assign(from.missed, to.missed);
+        if constexpr (requires { from.missed_joint; }) assign(from.missed_joint, to.missed_joint);
+        if constexpr (requires { from.lowered; }) assign(from.lowered, to.lowered);
+        if constexpr (requires { from.contacts; }) assign(from.contacts, to.contacts);
     }
 };
 

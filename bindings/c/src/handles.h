@@ -12,6 +12,7 @@
 #include <bendy/runtime/palette_matrix.h>
 #include <bendy/runtime/playback.h>
 #include <bendy/runtime/pose.h>
+#include <bendy/runtime/retarget.h>
 #include <bendy/runtime/root_motion.h>
 #include <bendy/runtime/transform.h>
 
@@ -125,6 +126,15 @@ struct bendy_binding {
 
     std::shared_ptr<const bendy::capi::Character> animated, posed;
     bendy::Binding binding;
+};
+
+struct bendy_retarget {
+    std::shared_ptr<const bendy::capi::Character> source, character;  ///< `character`: the target
+    bendy::Retarget retarget;
+};
+
+struct bendy_retarget_state {
+    bendy::RetargetState state;
 };
 
 struct bendy_crowd {

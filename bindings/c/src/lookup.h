@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 
 // Looks up what a call refers to: the parts of a model by their indices.
@@ -63,6 +64,11 @@ bendy_status check_same_model(const Handle* handle, const Other& other, const ch
                               bendy_error* error) {
     if (handle == nullptr || &character_of(*handle) == &character_of(other)) return BENDY_OK;
     return fail(error, BENDY_BAD_ARGUMENT, std::string(name) + " is of another model than " + what);
+}
+
+/// The first of several numbers; NULL if there are none.
+inline const std::uint32_t* first_of(std::span<const std::uint32_t> numbers) {
+    return numbers.empty() ? nullptr : numbers.data();
 }
 
 /// Checks that a mesh has bones.

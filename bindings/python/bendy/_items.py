@@ -45,6 +45,12 @@ def row_major(columns: NDArray[Any]) -> NDArray[Any]:
     return np.ascontiguousarray(columns.reshape(*columns.shape[:-1], 4, 4).swapaxes(-1, -2))
 
 
+def numbers_or_none(found: Optional[c.Pointer], count: int) -> List[Optional[int]]:
+    """An array of C's, in which BENDY_NONE is None."""
+    numbers = [] if found is None else found.array(count).tolist()
+    return [None if number == 0xffffffff else number for number in numbers]
+
+
 def read_only(array: NDArray[Any]) -> NDArray[Any]:
     array.flags.writeable = False
     return array

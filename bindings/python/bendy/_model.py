@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
 
 class Joint(WithExtras, c.Joint):
-    """A joint of a model. Parents come before their children: `parent` is a number, None for a root."""
+    """A joint of a model. Parents come before their children: `parent` is a number, None for a root. role: what it is in the body,
+    "left_foot", or "none"; role_place: its place in a chain such as "tail"."""
 
     _kind = "joint"
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._bendy import c
-from ._items import Character, Floats, Vector3, Vector4, floats, row_major
+from ._items import Character, Floats, Vector3, Vector4, floats, numbers_or_none, row_major
 from ._mesh import Lod, Mesh
 from ._model import Clip, Joint, Marker
 from ._pose import Pose
@@ -232,12 +232,12 @@ class Binding:
     @property
     def joints(self) -> List[Optional[int]]:
         """For each joint of the animated model, the number of the posed model's joint, or None."""
-        return _numbers(c.binding_joints(self._handle), self._animated.joints)
+        return numbers_or_none(c.binding_joints(self._handle), self._animated.joints)
 
     @property
     def targets(self) -> List[Optional[int]]:
         """The same for morph targets."""
-        return _numbers(c.binding_targets(self._handle), c.morph_target_count(self._animated.handle))
+        return numbers_or_none(c.binding_targets(self._handle), c.morph_target_count(self._animated.handle))
 
     @property
     def unmatched_joints(self) -> List[int]:
@@ -248,11 +248,6 @@ class Binding:
     def unmatched_targets(self) -> List[int]:
         """The same for morph targets."""
         return c.binding_unmatched_targets(self._handle).tolist()
-
-
-def _numbers(found: Optional[c.Pointer], count: int) -> List[Optional[int]]:
-    numbers = [] if found is None else found.array(count).tolist()
-    return [None if number == 0xffffffff else number for number in numbers]
 
 
 class Crowd:

@@ -1,7 +1,8 @@
 // A character that plays clips and reaches for targets: the runtime, and the three.js objects that it moves.
 import * as THREE from 'three';
-import { type Chain, type Clip, type Constraint, CrossFade, LevelOfDetail, Model, Playback, Pose } from '../src/index.js';
+import { type Chain, type Clip, type Constraint, LevelOfDetail, type Model, type Pose } from '../src/index.js';
 import { BendyAnimator, type BendyCharacter, BendyLoader, setLevelOfDetail } from '../src/three/index.js';
+import { BorrowedMotion, Motion } from './motion.js';
 import { drawRange } from './ranges.js';
 import { counted } from './units.js';
 
@@ -49,8 +50,6 @@ export class Character {
   #targets = new Map<number, Target>();
   #leader: Character | undefined;
   #gaze: Target | undefined; // what the look chain points at
-  clip = 0;
-  readonly clips: readonly Clip[];
   readonly chains: readonly Chain[];
   /** The chain that looks at the pointer. */
   readonly lookChain: Chain | undefined;
@@ -60,9 +59,9 @@ export class Character {
   readonly #pose: Pose;
   readonly #animator: BendyAnimator;
   readonly #detail: LevelOfDetail;
-  readonly #crossFade: CrossFade;
+  readonly #own: Motion;
+  #borrowed: BorrowedMotion | undefined;
   readonly #box: THREE.Box3;
-  #playback: Playback | undefined;
   #matrices: Float32Array; // of the joints, after the last update
 
   private constructor(readonly result: BendyCharacter) {
@@ -70,12 +69,11 @@ export class Character {
     sharePrograms(result);
     this.#animator = new BendyAnimator(result);
     this.#pose = this.#animator.pose;
-    this.clips = [...this.#model.clips];
     this.chains = [...this.#model.chains];
     this.lookChain = this.chains.find(({ name, solver }) => solver === 'aim' && /look|head/i.test(name));
     this.limbs = this.chains.filter((chain) => chain !== this.lookChain);
     this.#detail = new LevelOfDetail(this.#model);
-    this.#crossFade = new CrossFade(this.#model);
+    this.#own = new Motion(this.#model, this.#pose);
     this.#matrices = this.#pose.modelMatrices().slice();
     this.#box = this.#measure();
   }
@@ -120,6 +118,33 @@ export class Character {
     const { joints, clips, vertexCount } = this.#model;
     return [counted(vertexCount, 'vertex', 'vertices'), counted(joints.length, 'joint', 'joints'), counted(clips.length, 'clip', 'clips')].join(', ');
   }
+  get #motion(): Motion {
+    return this.#borrowed ?? this.#own;
+  }
+  /** Those that move it: its own, or another character's. */
+  get clips(): readonly Clip[] {
+    return this.#motion.clips;
+  }
+  get clip(): number {
+    return this.#motion.clip;
+  }
+  get isBorrowing(): boolean {
+    return this.#borrowed !== undefined;
+  }
+
+  /** Plays the clips of another model from now on, which it then owns. Throws BAD_ARGUMENT if one of the two lacks roles. */
+  borrow(source: Model): void {
+    const borrowed = new BorrowedMotion(source, this.#pose);
+    this.returnClips();
+    this.#borrowed = borrowed;
+  }
+
+  /** Plays its own clips again. */
+  returnClips(): void {
+    this.#borrowed?.dispose();
+    this.#borrowed = undefined;
+  }
+
   /** The initial clip: the first of those that show the character at its best. */
   get firstClip(): number {
     const ranks = this.clips.map(rankOfClip);
@@ -141,7 +166,6 @@ export class Character {
     this.#leader = leader;
     this.#targets = leader.#targets;
     this.weights = leader.weights;
-    this.clip = leader.clip;
   }
 
   /** Lets a chain return to its clip. */
@@ -151,25 +175,20 @@ export class Character {
   }
 
   play(clip: number, fade: number): void {
-    this.clip = clip;
-    const playback = new Playback(this.#model, clip);
-    playback.mode = 'repeat';
-    this.#crossFade.play(clip, { playback, fade: this.#playback ? fade : 0 });
-    this.#playback?.dispose();
-    this.#playback = playback;
+    this.#motion.play(clip, fade);
   }
 
   get seconds(): number {
-    return this.#playback ? this.#crossFade.getPlayback(this.#playback).seconds : 0;
+    return this.#motion.seconds;
   }
   get share(): number {
-    return this.#playback ? this.#crossFade.getPlayback(this.#playback).share : 0;
+    return this.#motion.share;
   }
   seek(share: number): void {
-    if (this.#playback) this.#crossFade.setPlayback(this.#crossFade.getPlayback(this.#playback).seekShare(share));
+    this.#motion.seek(share);
   }
   step(seconds: number): void {
-    if (this.#playback) this.#crossFade.advance(seconds);
+    this.#motion.step(seconds);
   }
 
   /** Sets the fraction of the triangles to draw. */
@@ -188,12 +207,10 @@ export class Character {
   update(seconds: number, passed: number, pointer: THREE.Vector3 | undefined): void {
     if (this.#leader) {
       this.obeysConstraints = this.#leader.obeysConstraints;
-      if (this.clips.length !== 0) this.#pose.sample(this.#leader.clip, this.#leader.seconds);
-    } else if (this.#playback) {
-      this.#crossFade.advance(seconds);
-      this.#crossFade.sample(this.#pose);
+      if (this.#leader.isBorrowing) this.#pose.setLocals(this.#leader.#pose.locals).setMorphWeights(this.#leader.#pose.morphWeights);
+      else if (this.clips.length !== 0) this.#pose.sample(this.#leader.clip, this.#leader.seconds);
     } else {
-      this.#pose.reset();
+      this.#motion.update(seconds);
     }
     for (const [target, weight] of this.weights) this.#pose.setMorphWeights([weight], target);
     this.results.clear();
@@ -282,7 +299,7 @@ export class Character {
 
   /** Whether the clip still fades in over the one before. */
   get isFading(): boolean {
-    return this.#playback !== undefined && this.#crossFade.playing.length > 1;
+    return this.#motion.isFading;
   }
 
   get hasMesh(): boolean {
@@ -307,7 +324,7 @@ export class Character {
   }
 
   dispose(): void {
-    for (const one of [this.#playback, this.#crossFade, this.#detail, this.#animator]) one?.dispose();
+    for (const one of [this.#borrowed, this.#own, this.#detail, this.#animator]) one?.dispose();
     this.object.traverse((object) => {
       const { geometry, material } = object as THREE.Mesh;
       geometry?.dispose();

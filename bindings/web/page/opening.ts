@@ -33,6 +33,14 @@ async function openCharacter(opened: Opened): Promise<void> {
   opened.warnings = [...opened.warnings, ...character.warnings.map((message) => ({ message, place: '', count: 1 }))];
 }
 
+/** The bytes of a bendy file, which the worker makes of anything else. Rejects with the first fault. */
+export async function readBytes({ files, main }: Given, background: Background, progress: (share: number) => void): Promise<Uint8Array> {
+  if (isBendy(files[main]!)) return files[main]!;
+  const { faults, bytes } = await background.ask({ kind: 'read', files, main, autoRig: false }, progress);
+  if (faults.length !== 0) throw faults[0];
+  return bytes;
+}
+
 /** Opens a bendy file without the converter; undefined if the runtime refuses it, so that the worker says all that is wrong. */
 async function openDirectly(opened: Opened): Promise<Opened | undefined> {
   try {

@@ -1,4 +1,5 @@
 // Shows what was dropped or chosen, or the example.
+import { borrow, showBorrowed } from './borrowing.js';
 import { endComparison } from './comparing.js';
 import { button, element, embeddedBytes, input, isStill, make, say, select } from './elements.js';
 import { acceptedSuffixes, charactersOf, droppedFiles, type Given, isCompanion, isRig, readFiles } from './files.js';
@@ -50,6 +51,7 @@ function show(opened: Opened): void {
   stage.show(now ? [now] : []);
   handles.show(now);
   showPanels();
+  showBorrowed();
   showSizes();
   if (now && now.clips.length !== 0) {
     playClip(now.firstClip);
@@ -89,6 +91,13 @@ async function openFiles(list: Iterable<File>): Promise<void> {
   offerOthers(files, mains);
   const main = mains[0] ?? names[0];
   if (main !== undefined) await open({ files, main });
+}
+
+/** Plays the clips in files on the character that is shown. */
+async function borrowFiles(list: Iterable<File>): Promise<void> {
+  const files = await readFiles(list);
+  const main = charactersOf(Object.keys(files))[0] ?? Object.keys(files)[0];
+  if (main !== undefined) await borrow({ files, main }, () => void open({ files, main }));
 }
 
 /** The files without the rigs among them, if there is a new rig. */
@@ -133,16 +142,21 @@ async function inspect(): Promise<void> {
 
 onTab((name) => name === 'inspect' && void inspect());
 for (const id of ['open', 'choose']) button(id).addEventListener('click', () => input('files').click());
-input('files').accept = acceptedSuffixes;
-input('files').addEventListener('change', async () => {
-  await openFiles(input('files').files ?? []).catch(showFailure);
-  input('files').value = '';
-});
+button('borrow').addEventListener('click', () => input('clip-files').click());
+for (const [id, take] of [['files', openFiles], ['clip-files', borrowFiles]] as const) {
+  input(id).accept = acceptedSuffixes;
+  input(id).addEventListener('change', async () => {
+    await take(input(id).files ?? []).catch(showFailure);
+    input(id).value = '';
+  });
+}
 button('example').addEventListener('click', () => void openExample());
 button('guess').addEventListener('click', () => session.shown && void open(session.shown, true));
+const isForClips = ({ target }: Event): boolean => target instanceof Node && element('drop-clips').contains(target);
 addEventListener('dragover', (event) => {
   event.preventDefault();
   element('drop').hidden = false;
+  element('drop-clips').classList.toggle('over', isForClips(event));
 });
 addEventListener('dragleave', (event) => {
   if (event.relatedTarget === null) element('drop').hidden = true;
@@ -150,5 +164,5 @@ addEventListener('dragleave', (event) => {
 addEventListener('drop', (event) => {
   event.preventDefault();
   element('drop').hidden = true;
-  if (event.dataTransfer) droppedFiles(event.dataTransfer.items).then(openFiles).catch(showFailure);
+  if (event.dataTransfer) droppedFiles(event.dataTransfer.items).then(isForClips(event) ? borrowFiles : openFiles).catch(showFailure);
 });

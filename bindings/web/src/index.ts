@@ -11,7 +11,7 @@ export { Bounds, type Box } from './bounds.js';
 export { Clip, Curve, type Marker, type Track } from './clip.js';
 export { Crowd } from './crowd.js';
 export { BendyError, type ErrorKind } from './errors.js';
-export type { Easing, Interpolation, LoopMode, Solver, StreamKind } from './generated/bindings.js';
+export type { Easing, Interpolation, LoopMode, RestPoses, Role, Solver, StreamKind } from './generated/bindings.js';
 export { type Item, Items, type Key } from './items.js';
 export { hasSimd, init, type LoadOptions, loadRuntime } from './load.js';
 export { LevelOfDetail } from './lod.js';
@@ -33,5 +33,6 @@ export type {
 } from './parts.js';
 export { CrossFade, ease, Fade, Playback, type Playing, type PlayOptions } from './play.js';
 export { Pose, type ReachOptions, type ReachRequest, type ReachResult, SkinnedVertices, type SkinOptions, type SocketOptions } from './pose.js';
+export { Retarget, type Retargeted, type RetargetOptions, RetargetState } from './retarget.js';
 export { blendMotions, composeMotions, motionMatrix, type RootAxes, type RootMotion, RootPath } from './root_motion.js';
 export { Handle, Runtime } from './runtime.js';

@@ -548,16 +548,17 @@ test('clips: a sensible one first, lengths, a search, and the one that plays is 
   assert.equal(await text('#clips [aria-current=true]'), 'T-Pose1.00 s');
 });
 
-/** Drops files and folders on the picture, as a person does. */
-async function drop(...files) {
+/** Drops files and folders on the picture, as a person does: on its upper half, or its lower one. */
+async function dropAt(y, files) {
   await tab.evaluate(() => (document.getElementById('status').textContent = ''));
   const session = await tab.createCDPSession();
-  for (const type of ['dragEnter', 'dragOver', 'drop']) {
-    await session.send('Input.dispatchDragEvent', { type, x: 400, y: 300, data: { items: [], files, dragOperationsMask: 1 } });
+  for (const type of ['dragEnter', 'dragOver', 'dragOver', 'drop']) {
+    await session.send('Input.dispatchDragEvent', { type, x: 400, y, data: { items: [], files, dragOperationsMask: 1 } });
     if (type === 'dragOver') await tab.waitForFunction(() => !document.getElementById('drop').hidden);
   }
   await session.detach();
 }
+const drop = (...files) => dropAt(300, files);
 
 test('a file, several files or a folder are dropped', { skip }, async () => {
   await drop(join(root, 'examples/tentacle.glb'));
@@ -572,6 +573,55 @@ test('a file, several files or a folder are dropped', { skip }, async () => {
   await drop(join(folder, 'character'));
   await shown('character/parts/parts.gltf');
   assert.equal(await tab.$eval('#others', ({ hidden }) => hidden), true);
+});
+
+test('the clips of another file move the character that is shown', { skip }, async () => {
+  const [first, dancer, bare] = ['first.bendy', 'dancer.bendy', 'bare.bendy'].map((name) => join(folder, name));
+  native('convert', join(root, 'examples/mannequin.glb'), '-o', dancer);
+  native('edit', dancer, '--strip', 'clips', '-o', first);
+  native('edit', dancer, '--strip', 'roles', '-o', bare);
+  const borrowed = () => tab.$eval('#borrowed', ({ hidden, firstElementChild }) => (hidden ? '' : firstElementChild.textContent));
+  const places = () => tab.evaluate(() => bendyPage.character.bones().join());
+  const placesAtQuarter = async () => {
+    await tab.click('#play'); // it pauses
+    await tab.evaluate(() => bendyPage.character.seek(0.25));
+    await frames();
+    return places();
+  };
+  await open(first);
+  await tab.waitForFunction(() => document.getElementById('name').textContent.startsWith('first.bendy'));
+  await frames();
+  assert.equal(await text('#noclips'), 'This character has no clips.');
+  const atRest = await places();
+  await dropAt(600, [dancer]);
+  await tab.waitForFunction(() => !document.getElementById('borrowed').hidden);
+  await frames();
+  assert.equal(await text('#drop-clips'), 'Drop here to play its clips on first.bendy');
+  assert.equal(await borrowed(), 'The clips are those of dancer.bendy.');
+  assert.match(await text('#name'), /^first\.bendy/);
+  assert.match(await text('#clips [aria-current=true]'), /^Idle/);
+  await picture('borrowed');
+  const moved = await placesAtQuarter();
+  assert.notEqual(moved, atRest);
+  await checkByAxe();
+  await tab.click('#return');
+  assert.deepEqual([await borrowed(), await tab.$eval('#transport', ({ hidden }) => hidden)], ['', true]);
+  await frames();
+  assert.equal(await places(), atRest);
+  // One without roles moves nobody, and what moves the character goes on.
+  await (await tab.$('#clip-files')).uploadFile(bare);
+  await tab.waitForFunction(() => !document.getElementById('borrowed').hidden);
+  assert.match(await borrowed(), /^bare\.bendy cannot move first\.bendy: the source does not say what its joints are: .*\.$/);
+  assert.equal(await tab.$eval('#return', ({ hidden }) => hidden), true);
+  await (await tab.$('#clip-files')).uploadFile(first);
+  await tab.waitForFunction(() => document.getElementById('borrowed').textContent.includes('has no clips'));
+  await (await tab.$('#clip-files')).uploadFile(dancer);
+  await tab.waitForFunction(() => document.getElementById('borrowed').textContent.includes('are those of'));
+  await tab.click('#show-instead');
+  await tab.waitForFunction(() => document.getElementById('name').textContent.startsWith('dancer.bendy'));
+  await frames();
+  assert.equal(await borrowed(), '');
+  assert.equal(await placesAtQuarter(), moved, 'the build is the same, and so is the pose');
 });
 
 test('of several characters the others can be chosen', { skip }, async () => {

@@ -16,6 +16,8 @@ import {
   motionMatrix,
   Playback,
   Pose,
+  Retarget,
+  RetargetState,
   RootPath,
 } from '../dist/index.js';
 import { difference, example, plain, read, repository, simd } from './helpers.mjs';
@@ -136,6 +138,63 @@ test('clips of another model', () => {
   assert.deepEqual(bound.skin().positions.slice(), model.sample('Walk', 0.3).skin().positions);
   assert.throws(() => new Binding(other, Model.openSync(mannequin, { runtime: plain })), { code: 'BAD_ARGUMENT' });
   model.dispose();
+});
+
+test('joints have roles', () => {
+  const model = Model.openSync(mannequin, { runtime: simd });
+  const { role, rolePlace } = model.joints.get('mixamorig:LeftForeArm');
+  assert.deepEqual([role, rolePlace], ['left_lower_arm', 0]);
+  assert.equal(model.joints.filter((joint) => joint.role !== 'none').length, 54);
+  model.dispose();
+});
+
+test('poses of another model of the same build are the same to the last bit', () => {
+  for (const runtime of [simd, plain]) {
+    const source = Model.openSync(mannequin, { runtime });
+    const target = Model.openSync(mannequin, { runtime });
+    const retarget = new Retarget(source, target);
+    assert.equal(retarget.scale, 1);
+    assert.deepEqual(Array.from(retarget.joints), source.joints.map((joint) => joint.number));
+    assert.deepEqual(Array.from(retarget.morphTargets), source.morphTargets.map((morph) => morph.number));
+    const [from, to, state] = [source.sample('Walk', 0.3), target.pose(), new RetargetState(runtime)];
+    const { contacts, turned, missedJoint } = retarget.apply(to, from, state);
+    assert.equal(contacts.length, 4);
+    assert.ok(contacts.some((weight) => weight > 0.5) && contacts.every((weight) => weight >= 0 && weight <= 1), String(contacts));
+    assert.equal(turned, 0);
+    assert.ok(missedJoint === null || target.joints[missedJoint] !== undefined);
+    assert.deepEqual(to.locals, from.locals);
+    assert.deepEqual(to.morphWeights, from.morphWeights);
+    assert.deepEqual(retarget.apply(to, from, state.reset(), [1, 1, 0, 0.25]).contacts, [1, 1, 0, 0.25]);
+    source.dispose();
+    target.dispose();
+    retarget.apply(to, from, state); // keeps what it needs
+    for (const one of [retarget, from, to, state]) one.dispose();
+    assert.throws(() => retarget.scale, { code: 'DISPOSED' });
+  }
+});
+
+test('retargeting says what is missing, and refuses poses of other models', () => {
+  const source = Model.openSync(mannequin, { runtime: simd });
+  const bare = Model.openSync(everyChunk, { runtime: simd });
+  const isMissing = { code: 'BAD_ARGUMENT', message: /^the target has no joint for .*right_hand.*"roles" in its rig file$/ };
+  assert.throws(() => new Retarget(source, bare), isMissing);
+  assert.throws(() => new Retarget(source, Model.openSync(mannequin, { runtime: plain })), { code: 'BAD_ARGUMENT' });
+  assert.throws(() => new Retarget(source, source, { restPoses: 'other' }), { code: 'BAD_ARGUMENT' });
+  const retarget = new Retarget(source, source, { restPoses: 'alike', obeyConstraints: false, plantsFeet: false });
+  const [pose, other, state] = [source.pose(), source.sample('Walk', 0.3), new RetargetState(simd)];
+  retarget.apply(pose, other, state);
+  for (const wrong of [
+    () => retarget.apply(bare.pose(), other, state),
+    () => retarget.apply(pose, bare.pose(), state),
+    () => retarget.apply(pose, pose, state),
+    () => retarget.apply(pose, other, new RetargetState(plain)),
+    () => retarget.apply(pose, other, state, [1, 2, 3]),
+    () => retarget.apply(pose, other, state, [1, Number.NaN, 0, 0]),
+  ]) {
+    assert.throws(wrong, { code: 'BAD_ARGUMENT' }, String(wrong));
+  }
+  source.dispose();
+  bare.dispose();
 });
 
 test('weights are eased', () => {

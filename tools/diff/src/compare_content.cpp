@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace bendy::diff {
 namespace {
@@ -104,6 +105,8 @@ void ContentComparer::compare_leaves(ChunkPair leaves) {
         compare_collapses(leaves, *object_a->collapse, *object_b->collapse);
     } else if (chunk.id == FourCC("MARK") && clip_a != nullptr && clip_b != nullptr) {
         compare_markers(leaves, *clip_a, *clip_b);
+    } else if (chunk.id == FourCC("ROLE") && object_a != nullptr && object_b != nullptr) {
+        compare_roles(leaves, *object_a, *object_b);
     } else {
         compare_parts(leaves);
         if (differences_.count() == before) compare_bytes(leaves, a_.tree.payload(leaves.a), b_.tree.payload(leaves.b));
@@ -138,6 +141,21 @@ void ContentComparer::compare_markers(ChunkPair leaves, const ClipView& a, const
             add_value(leaves, part + "seconds", Scalar{double{here.seconds}}, Scalar{double{there.seconds}});
         if (here.name != there.name)
             add_value(leaves, part + "name", Scalar{std::string(here.name)}, Scalar{std::string(there.name)});
+    }
+}
+
+/// Joint by joint: a role more or less moves the records of all others.
+void ContentComparer::compare_roles(ChunkPair leaves, const ObjectView& a, const ObjectView& b) {
+    const auto text = [](const RoleRecord* role) { return role == nullptr ? Value() : Scalar{role_text(*role)}; };
+    std::vector<std::uint32_t> joints;
+    for (const ObjectView* object : {&a, &b})
+        for (const RoleRecord& role : object->roles) joints.push_back(role.joint);
+    std::sort(joints.begin(), joints.end());
+    joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
+    for (const std::uint32_t joint : joints) {
+        const Value here = text(role_of(a.roles, joint));
+        const Value there = text(role_of(b.roles, joint));
+        if (here != there) add_value(leaves, joint_name(&a, joint), here, there);
     }
 }
 

@@ -28,6 +28,7 @@ private:
     void compare_streams(ChunkPair leaves, const StreamView& a, const StreamView& b);
     void compare_collapses(ChunkPair leaves, const CollapseView& a, const CollapseView& b);
     void compare_markers(ChunkPair leaves, const ClipView& a, const ClipView& b);
+    void compare_roles(ChunkPair leaves, const ObjectView& a, const ObjectView& b);
     void compare_tracks(ChunkPair clips, const std::string& name, const TrackView& a, const TrackView& b);
 
     // For all other kinds, as described by leaf_parts.def: compare_parts.cpp.
@@ -39,6 +40,7 @@ private:
     void compare_names(ChunkPair leaves, const LeafPart& part, Bytes a, Bytes b);
     void compare_bytes(ChunkPair leaves, Bytes a, Bytes b);
     [[nodiscard]] std::string row_name(ChunkPair leaves, const LeafPart& part, std::uint64_t row) const;
+    static std::string joint_name(const ObjectView* object, std::uint64_t joint);
 
     using NumberAt = std::function<double(std::uint64_t)>;
     void compare_numbers(ChunkPair chunks, const std::string& part, std::uint64_t count, std::uint64_t components,

@@ -160,13 +160,16 @@ void ContentComparer::compare_field(ChunkPair leaves, const std::string& prefix,
 
 /// Returns "joint 3 \"Hips\": " if each row belongs to a joint, otherwise "ranges 3: ".
 std::string ContentComparer::row_name(ChunkPair leaves, const LeafPart& part, std::uint64_t row) const {
-    const std::string number = std::to_string(row);
-    if (part.each == Entity::nothing) return std::string(part.name) + ' ' + number;
-    std::string name = std::string(name_of(part.each)) + ' ' + number;
-    const ObjectView* object = a_.objects[a_.tree[leaves.a].parent];
-    const bool is_joint = part.each == Entity::joint && object != nullptr && row < object->skeleton.joints.size();
-    if (!is_joint || object->skeleton.joints[row].name.empty()) return name;
-    return name + " \"" + std::string(object->skeleton.joints[row].name) + '"';
+    if (part.each == Entity::nothing) return std::string(part.name) + ' ' + std::to_string(row);
+    if (part.each == Entity::joint) return joint_name(a_.objects[a_.tree[leaves.a].parent], row);
+    return std::string(name_of(part.each)) + ' ' + std::to_string(row);
+}
+
+std::string ContentComparer::joint_name(const ObjectView* object, std::uint64_t joint) {
+    std::string name = "joint " + std::to_string(joint);
+    const bool has_name = object != nullptr && joint < object->skeleton.joints.size();
+    if (!has_name || object->skeleton.joints[joint].name.empty()) return name;
+    return name + " \"" + std::string(object->skeleton.joints[joint].name) + '"';
 }
 
 void ContentComparer::compare_records(ChunkPair leaves, const LocatedPart& a, const LocatedPart& b) {

@@ -2,6 +2,8 @@
 
 #include "rewrite.h"
 
+#include <bendy/format/role.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -10,13 +12,6 @@
 
 namespace bendy::edit {
 namespace {
-
-/// "hips", "tail 2".
-std::string words_of(const RoleRecord& record) {
-    std::string words(kValueNames<Role>.at(record.role));
-    if (record.role >= static_cast<std::uint16_t>(kFirstChainRole)) words += ' ' + std::to_string(record.place);
-    return words;
-}
 
 /// Adds, replaces or removes the ROLE of an object. A new one follows the joints.
 void put_roles(const Source& source, std::uint32_t object, std::span<const RoleRecord> roles, Rewrite& rewrite) {
@@ -83,12 +78,12 @@ Edited set_role(Bytes file, const SetRole& what, Log& log) {
         if (!is_taken && other.joint != record.joint) {
             roles.push_back(other);
         } else if (other.joint != record.joint || !is_taken) {
-            log.done.push_back("joint \"" + std::string(names[other.joint]) + "\" is no longer " + words_of(other));
+            log.done.push_back("joint \"" + std::string(names[other.joint]) + "\" is no longer " + role_text(other));
         }
     }
     if (record.joint != kNone) {
         roles.push_back(record);
-        log.done.push_back("joint \"" + std::string(names[record.joint]) + "\" is " + words_of(record));
+        log.done.push_back("joint \"" + std::string(names[record.joint]) + "\" is " + role_text(record));
     }
     std::sort(roles.begin(), roles.end(), [](const RoleRecord& a, const RoleRecord& b) { return a.joint < b.joint; });
     Rewrite rewrite(source->tree);

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 // ROLE: what joints are in the body: hips, left upper leg, the third joint of the tail.
 namespace BENDY_PUBLIC bendy {
@@ -14,5 +15,11 @@ namespace BENDY_PUBLIC bendy {
 /// place given once. Returns nothing if there is none, or if it has a fault.
 std::span<const RoleRecord> read_roles(const ChunkTree& tree, std::uint32_t object, std::uint32_t joints,
                                        Faults& faults);
+
+/// Returns the record of a joint, or null. `roles` ascend by joint.
+const RoleRecord* role_of(std::span<const RoleRecord> roles, std::uint32_t joint);
+
+/// Returns a known role in words: "left_hand", "tail 2".
+std::string role_text(const RoleRecord& record);
 
 }  // namespace bendy

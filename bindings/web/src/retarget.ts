@@ -1,0 +1,61 @@
+import type { BendyRetargeted, BendyRetargetOptions } from './generated/bindings.js';
+import { MadeRetarget, MadeRetargetState } from './generated/classes.js';
+import type { Model } from './model.js';
+import type { Pose } from './pose.js';
+import type { Runtime } from './runtime.js';
+
+/** Options of a Retarget. */
+export interface RetargetOptions extends BendyRetargetOptions {}
+
+/** What had to give way in a frame: the result of `Retarget.apply`. */
+export interface Retargeted extends BendyRetargeted {}
+
+/** What a character remembers from one frame to the next: where its feet stand. */
+export class RetargetState extends MadeRetargetState {
+  /** Throws OUT_OF_MEMORY. */
+  constructor(runtime: Runtime) {
+    super(runtime, runtime.calls.bendy_retarget_state_new(), runtime.functions.bendy_retarget_state_free);
+  }
+}
+
+/**
+ * How poses of one model become poses of another of different build: what corresponds is known from `Joint.role`, not from names; the
+ * rest poses may differ (arms out or down), face other ways and have other sizes. Joints with a role turn as those of the source do.
+ * Joints and morph targets with equal names and no role come along, such as props and faces; all others keep their rest relative to
+ * their parent. Both models must be of one runtime. Only making it allocates.
+ */
+export class Retarget extends MadeRetarget {
+  /** The model whose poses are taken; `model` is the other one. */
+  readonly source: Model;
+
+  /**
+   * Both models need the roles of hips, head, upper and lower arms and legs, hands and feet. Throws BAD_ARGUMENT, with a message that
+   * says what is missing; OUT_OF_MEMORY.
+   */
+  constructor(source: Model, target: Model, options: RetargetOptions = {}) {
+    const { calls, functions } = target.runtime;
+    super(target, calls.bendy_retarget_new(source, target, options), functions.bendy_retarget_free);
+    this.own(source.useFile());
+    this.source = source;
+  }
+
+  /**
+   * Sets a pose of `model` to a pose of `source`. Where neither a constraint nor a contact acts, limbs have the directions of the
+   * source's. Feet that stand on the ground are brought to their places by IK. `state` is the character's own. `contacts` says how
+   * firmly left heel, left toes, right heel and right toes stand, from 0 in the air to 1; if not given, they are found by the
+   * height of heel and toes. Throws BAD_ARGUMENT, and for numbers that are not finite the pose is then at rest.
+   */
+  apply(pose: Pose, source: Pose, state: RetargetState, contacts?: ArrayLike<number>): Retargeted {
+    return this.runtime.calls.bendy_retarget_pose(pose, this, source, state, contacts);
+  }
+
+  /** For each joint of `model`, the source's joint that turns it, or -1. */
+  get joints(): Int32Array<ArrayBuffer> {
+    return this.runtime.copyIndices(this.runtime.calls.bendy_retarget_joints(this), this.model.joints.length);
+  }
+
+  /** For each morph target of `model`, the source's, or -1. */
+  get morphTargets(): Int32Array<ArrayBuffer> {
+    return this.runtime.copyIndices(this.runtime.calls.bendy_retarget_morph_targets(this), this.model.morphTargets.length);
+  }
+}
