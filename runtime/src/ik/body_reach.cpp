@@ -85,9 +85,9 @@ double square(double x) {
 }
 
 /// One call of reach.
-class Reaching {
+class ReachingBody {
 public:
-    Reaching(BodyReachPlan& plan, Pose& pose)
+    ReachingBody(BodyReachPlan& plan, Pose& pose)
         : plan_(plan), state_(PoseState::of(pose)), links_(plan.links), tips_(plan.tips) {}
 
     Result<BodyReached, CallError> run(std::span<const EffectorTarget> targets) {
@@ -599,7 +599,7 @@ Result<BodyReached, CallError> reach(Pose& pose, BodyReach& body, std::span<cons
     BodyReachPlan& plan = BodyReachPlan::of(body);
     if (pose.model() != plan.model) return CallError::other_model;
     if (targets.size() != plan.tips.size()) return CallError::wrong_size;
-    return Reaching(plan, pose).run(targets);
+    return ReachingBody(plan, pose).run(targets);
 }
 
 }  // namespace bendy
