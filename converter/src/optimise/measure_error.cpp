@@ -528,7 +528,10 @@ std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decode
         total += times.back().size();
     }
     SharedProgress progress(options.progress, static_cast<double>(total));
-    std::vector<Comparison> workers(threads, comparison);
+    std::vector<Comparison> workers;
+    workers.reserve(threads);  // large: one for each thread, and no more
+    workers.push_back(std::move(comparison));
+    while (workers.size() < threads) workers.push_back(workers.front());
     std::mutex guard;
     double known = std::min(std::max(options.known, errors.back().metres), options.limit);
     in_parallel(threads, clips.size(), [&](std::size_t k, std::size_t worker) {

@@ -37,7 +37,7 @@ struct MeasureOptions {
     double limit = std::numeric_limits<double>::infinity();  ///< metres: for measure_clips
     /// Per joint, in its space: points beside the skin that count if they are farther off than the limit.
     std::span<const std::vector<glm::dvec3>> shell{};
-    bool only_keys = false;                                  ///< a rough measurement: nothing between the keys
+    bool only_keys = false;  ///< a rough measurement: nothing between the keys
 };
 
 /// Compares every vertex, displaced and skinned, and every joint that moves none, in the rest pose and in every clip:

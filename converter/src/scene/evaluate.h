@@ -30,7 +30,8 @@ void evaluate(const Scene& scene, const Clip& clip, double seconds, EvaluatedPos
 
 /// One track's value at a time: `components` numbers. Linear rotations follow the shortest great arc, cubic ones are
 /// normalised.
-/// \param near_key  any number; receives the key before the time. A time in its interval or in the next is found at once
+/// \param near_key  any number; receives the key before the time. From there, the interval and the next are searched
+///                  first.
 void evaluate_track(const Track& track, double seconds, std::vector<double>& value, std::size_t& near_key);
 void evaluate_track(const Track& track, double seconds, std::vector<double>& value);
 

@@ -73,6 +73,16 @@ std::vector<std::byte> with_bound(Bytes file, const BoundRecord& bound) {
     return std::move(out).finish();
 }
 
+/// Whether measuring at the keys first saves time. It costs microseconds for each vertex; measuring in full costs a
+/// fraction of one for each joint and sample.
+bool are_drafts_worth(const Scene& scene, double seconds) {
+    constexpr double kJointsPerVertex = 8.0;
+    std::size_t vertices = 0;
+    for (const Mesh& mesh : scene.meshes) vertices += mesh.positions.size();
+    const double poses = seconds * kSamplesPerSecond * static_cast<double>(scene.joints.size());
+    return poses > kJointsPerVertex * static_cast<double>(vertices);
+}
+
 /// Counts the curves and the packed ones as put_curves writes them, and finds their largest error.
 void count_curves(const Scene& scene, CompactReport& report) {
     for (const Clip& clip : scene.clips) {
@@ -105,15 +115,15 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
     CompactReport result;
     result.height = height_at_rest(exact);
     result.max_error = bound.is_share ? bound.value * result.height : bound.value;
-    std::vector<std::byte> plain = build_chunks(exact, generator, report);
-    result.exact = count_bytes(plain);
-    if (!find_limits(exact).can_be_measured) {
-        report.warn("poses too much for its size to be measured: written exactly");
-        return plain;
-    }
+    result.exact = count_bytes(build_chunks(exact, generator, report));
+    Report unheard;  // discarded: all files give the same warnings
+    const auto exactly = [&](std::string_view why) {
+        report.warn(std::string(why) + ": written exactly");
+        return build_chunks(exact, generator, unheard);
+    };
+    if (!find_limits(exact).can_be_measured) return exactly("poses too much for its size to be measured");
 
-    Report unheard;  // discarded: the compact file gives the same warnings
-    Scene geometry_scene = exact;
+    Scene scene = exact;
     const double geometry_share = geometry_share_of(exact);
     // Rough estimate: the geometry takes as long as five seconds of clips.
     constexpr double kGeometryWork = 5.0;
@@ -121,23 +131,22 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
     for (const Clip& clip : exact.clips) seconds += span_of(clip).at(1.0) - span_of(clip).at(0.0);
     const double geometry_done = std::min(0.8, kGeometryWork / (kGeometryWork + seconds));
     const CompactGeometry geometry =
-        compact_geometry(geometry_scene, result.max_error * geometry_share, part_of(progress, 0.0, geometry_done));
+        compact_geometry(scene, result.max_error * geometry_share, part_of(progress, 0.0, geometry_done));
 
     const std::size_t clips = exact.clips.size();
-    Scene scene = geometry_scene;
     const auto shell = find_probes(exact, Probes::shell);
     std::vector<double> shares(clips, kClipShare);  // of the bound, for each clip
     std::vector<MeasuredError> errors(clips + 1);   // of each clip, and at rest
     std::vector<std::uint32_t> all(clips);
     std::iota(all.begin(), all.end(), 0u);
+    const bool has_drafts = are_drafts_worth(exact, seconds);
     // The numbers of clips that are not yet within the bound: first some, from which the others' shares follow.
-    const std::size_t stride = clips < kFewClips ? 1 : clips / kFirstClips;
+    const std::size_t stride = has_drafts && clips >= kFewClips ? clips / kFirstClips : 1;
     std::vector<std::uint32_t> to_pack;
     std::vector<std::uint32_t> waiting;
     for (const std::uint32_t clip : all) (clip % stride == 0 ? to_pack : waiting).push_back(clip);
     std::vector<std::byte> bytes;
     double done = geometry_done;
-    double known = 0.0;  // metres: the largest error of the clips that are within the bound
     // Builds the file and measures clips of it; returns those that are above the bound.
     const auto above_bound = [&](const std::vector<std::uint32_t>& measured, bool is_draft, double until) {
         BuildOptions how;
@@ -146,22 +155,20 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
         how.geometry = &geometry;
         bytes = build_chunks(scene, generator, unheard, how);
         MeasureOptions what{.progress = part_of(progress, done, until),
-                               .threads = threads,
-                               .known = known,
-                               .limit = result.max_error,
-                               .only_keys = is_draft};
+                            .threads = threads,
+                            .limit = result.max_error,
+                            .only_keys = is_draft};
         if (!is_draft) what.shell = shell;
+        for (const std::uint32_t clip : all) {  // what was measured before is in this file, too
+            if (errors[clip].metres <= result.max_error) what.known = std::max(what.known, errors[clip].metres);
+        }
         const std::vector<MeasuredError> found = measure(exact, geometry, bytes, measured, what);
         done = until;
         errors.back() = found.back();
         std::vector<std::uint32_t> above;
         for (std::size_t k = 0; k < measured.size(); ++k) {
-            const MeasuredError& error = errors[measured[k]] = found[k];
-            if (error.metres <= result.max_error) {
-                known = std::max(known, error.metres);
-            } else {
-                above.push_back(measured[k]);
-            }
+            errors[measured[k]] = found[k];
+            if (!(found[k].metres <= result.max_error)) above.push_back(measured[k]);
         }
         return above;
     };
@@ -172,7 +179,8 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
         const double draft_done = packing_done + kDraftShare * (attempt_done - packing_done);
         std::vector<double> bounds(clips, 0.0);
         for (const std::uint32_t clip : to_pack) {
-            scene.clips[clip] = geometry_scene.clips[clip];
+            scene.clips[clip] = exact.clips[clip];
+            errors[clip] = {};
             if (number + 1 < kAttempts) bounds[clip] = result.max_error * shares[clip];
         }
         pack_clips(scene, bounds,
@@ -180,7 +188,7 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
         done = packing_done;
         // At the keys first, which finds nearly all errors; in full once nothing is left to correct.
         const std::vector<std::uint32_t> packed = std::move(to_pack);
-        if (!packed.empty()) to_pack = above_bound(packed, true, draft_done);
+        if (has_drafts) to_pack = above_bound(packed, true, draft_done);
         if (to_pack.empty() && waiting.empty()) to_pack = above_bound(all, false, attempt_done);
         if ((to_pack.empty() && waiting.empty()) || !(errors.back().metres <= result.max_error)) break;
         for (const std::uint32_t clip : to_pack) {
@@ -200,8 +208,7 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
         if (error.metres > worst.metres) worst = error;
     }
     if (!(worst.metres <= result.max_error)) {
-        report.warn("cannot be kept inside the error that was asked for: written exactly");
-        return plain;
+        return exactly("cannot be kept inside the error that was asked for");
     }
     bytes = with_bound(bytes, {static_cast<float>(result.max_error), static_cast<float>(worst.metres),
                                static_cast<float>(result.height)});
