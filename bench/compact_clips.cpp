@@ -86,27 +86,31 @@ int main(int argc, char** argv) {
             }
             std::vector<double> seconds;
             std::vector<PackedReport> reports;
+            std::vector<std::uint64_t> stored;
             for (std::size_t number = 0; number < scene->clips.size(); ++number) {  // one at a time, to time each
                 std::vector<double> bounds(scene->clips.size(), 0.0);
                 bounds[number] = error / unit;
                 const auto before = std::chrono::steady_clock::now();
                 reports.push_back(pack_clips(*scene, bounds, {.probes = probes})[number]);
                 seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count());
+                const std::vector<std::byte>& packed = scene->clips[number].packed;
+                const auto encoded = encode_payload(Codec::clip, packed, 0, 0);
+                stored.push_back(encoded ? std::min(encoded->size(), packed.size()) : packed.size());
             }
             std::size_t number = 0;
             for (const PackedReport& row : reports) {
                 std::printf("%-14s %7llu %8llu %8llu %8.5f %9ld %4ld/%ld %7.2f%s\n", row.name.c_str(),
                             static_cast<unsigned long long>(row.source_bytes),
                             static_cast<unsigned long long>(row.packed_bytes),
-                            static_cast<unsigned long long>(row.stored_bytes), row.worst_error * unit * 1e3,
+                            static_cast<unsigned long long>(stored[number]), row.worst_error * unit * 1e3,
                             peers.number(row.name, "acl_bytes"), peers.number(row.name, "probe_memory_bytes"),
                             peers.number(row.name, "probe_disk_bytes"), seconds[number],
                             row.kept_bytes > 0 ? " (keys kept)" : "");
                 std::fflush(stdout);
-                ++number;
                 source += row.source_bytes;
                 memory += row.packed_bytes;
-                disk += row.stored_bytes;
+                disk += stored[number];
+                ++number;
             }
         }
     }

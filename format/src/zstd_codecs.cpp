@@ -34,14 +34,24 @@ bool is_good(std::size_t result) {
     return ZSTD_isError(result) == 0;
 }
 
+struct Free {
+    void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
+    void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
+};
+
 /// One per thread, and kept: creating one queries the processor, which takes tens of microseconds in virtual machines,
 /// and a file may have hundreds of frames.
 ZSTD_DCtx* decompressor() {
-    struct Free {
-        void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
-    };
     thread_local std::unique_ptr<ZSTD_DCtx, Free> context;
     if (context == nullptr) context.reset(ZSTD_createDCtx());
+    if (context == nullptr) fail_as_allocation();
+    return context.get();
+}
+
+/// As above: its tables would be allocated anew for each frame.
+ZSTD_CCtx* compressor() {
+    thread_local std::unique_ptr<ZSTD_CCtx, Free> context;
+    if (context == nullptr) context.reset(ZSTD_createCCtx());
     if (context == nullptr) fail_as_allocation();
     return context.get();
 }
@@ -52,7 +62,8 @@ bool put_zstd(Bytes bytes, std::vector<std::byte>& out) {
     const std::size_t at = out.size();
     out.resize(at + ZSTD_compressBound(bytes.size()));
     const int level = bytes.size() > kLong ? kLongLevel : kZstdLevel;
-    const std::size_t size = ZSTD_compress(out.data() + at, out.size() - at, bytes.data(), bytes.size(), level);
+    const std::size_t size =
+        ZSTD_compressCCtx(compressor(), out.data() + at, out.size() - at, bytes.data(), bytes.size(), level);
     if (!is_good(size)) return false;
     out.resize(at + size);
     return true;

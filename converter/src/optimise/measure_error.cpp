@@ -378,7 +378,7 @@ std::vector<double> sample_times(const Clip& exact, const Clip& decoded, std::si
         std::sort(times.begin(), times.end());
         times.erase(std::unique(times.begin(), times.end()), times.end());
     }
-    if (times.empty()) return times;
+    if (times.empty() || limit == 0) return times;
     const double start = times.front();
     const double length = times.back() - start;
     const double most = std::min(kMostSamples, static_cast<double>(limit));
@@ -392,7 +392,9 @@ std::vector<double> sample_times(const Clip& exact, const Clip& decoded, std::si
 
 class Comparison {
 public:
-    Comparison(const Scene& exact, const Scene& decoded, VertexMaps maps) : exact_(exact), decoded_(decoded) {
+    Comparison(const Scene& exact, const Scene& decoded, const MeasureOptions& options)
+        : exact_(exact), decoded_(decoded), shell_(options.shell), limit_(options.limit) {
+        const VertexMaps maps = options.vertex_maps;
         pairs_.reserve(exact.meshes.size());
         for (std::size_t mesh = 0; mesh < exact.meshes.size(); ++mesh) {
             const bool is_mapped = mesh < maps.size() && !maps[mesh].empty();
@@ -445,9 +447,32 @@ private:
             worst_.joint = joint;
             has_risen = true;
         }
+        if (measure_shell()) has_risen = true;
         if (!has_risen) return;
         worst_.clip = clip;
         worst_.seconds = seconds;
+    }
+
+    /// Updates `worst_` if a point of the shell is above the limit and worse.
+    bool measure_shell() {
+        bool has_risen = false;
+        const double most = std::max(limit_, worst_.metres);
+        for (std::uint32_t joint = 0; joint < shell_.size(); ++joint) {
+            const glm::dmat4 difference = exact_pose_.joints[joint] - decoded_pose_.joints[joint];
+            const double turned = glm::length(difference[0]) + glm::length(difference[1]) + glm::length(difference[2]);
+            const double origin = glm::length(glm::dvec3(difference[3]));
+            for (const glm::dvec3& point : shell_[joint]) {
+                // Each coordinate is at most the point's length.
+                if (origin + turned * glm::length(point) <= most) continue;
+                const double error = or_infinite(glm::length(glm::dvec3(difference * glm::dvec4(point, 1.0))));
+                if (error <= std::max(limit_, worst_.metres)) continue;
+                worst_.metres = error;
+                worst_.mesh = worst_.vertex = kNone;
+                worst_.joint = joint;
+                has_risen = true;
+            }
+        }
+        return has_risen;
     }
 
     const Scene& exact_;
@@ -455,6 +480,8 @@ private:
     std::vector<MeshPair> pairs_;
     std::vector<std::uint32_t> loose_;
     std::vector<glm::dvec3> points_;  // per loose joint, see points_of_joints
+    std::span<const std::vector<glm::dvec3>> shell_;
+    double limit_;  // metres, for the shell
     EvaluatedPose exact_pose_, decoded_pose_;
     MeasuredError worst_;
 };
@@ -486,7 +513,7 @@ std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decode
         if (exact.meshes[mesh].targets.size() != decoded.meshes[mesh].targets.size()) return impossible();
     }
     const std::size_t threads = std::clamp<std::size_t>(options.threads, 1, most_threads(exact, clips.size()));
-    Comparison comparison(exact, decoded, options.vertex_maps);
+    Comparison comparison(exact, decoded, options);
     if (!comparison.is_possible()) return impossible();
     comparison.measure_rest();
     errors.back() = comparison.worst();
@@ -496,11 +523,15 @@ std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decode
     std::vector<std::vector<double>> times;
     std::size_t total = 0;
     for (const std::uint32_t clip : clips) {
-        times.push_back(sample_times(exact.clips[clip], decoded.clips[clip], limits.clips[clip].samples));
+        const std::size_t between = options.only_keys ? 0 : limits.clips[clip].samples;
+        times.push_back(sample_times(exact.clips[clip], decoded.clips[clip], between));
         total += times.back().size();
     }
     SharedProgress progress(options.progress, static_cast<double>(total));
-    std::vector<Comparison> workers(threads, comparison);
+    std::vector<Comparison> workers;
+    workers.reserve(threads);  // large: one for each thread, and no more
+    workers.push_back(std::move(comparison));
+    while (workers.size() < threads) workers.push_back(workers.front());
     std::mutex guard;
     double known = std::min(std::max(options.known, errors.back().metres), options.limit);
     in_parallel(threads, clips.size(), [&](std::size_t k, std::size_t worker) {

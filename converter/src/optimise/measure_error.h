@@ -2,6 +2,8 @@
 
 #include <bendy/converter/scene.h>
 
+#include <glm/vec3.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -33,6 +35,9 @@ struct MeasureOptions {
     std::size_t threads = 1;                 ///< maximum; the result does not depend on it
     double known = 0.0;                      ///< metres, at most the limit: smaller errors need not be found
     double limit = std::numeric_limits<double>::infinity();  ///< metres: for measure_clips
+    /// Per joint, in its space: points beside the skin that count if they are farther off than the limit.
+    std::span<const std::vector<glm::dvec3>> shell{};
+    bool only_keys = false;  ///< a rough measurement: nothing between the keys
 };
 
 /// Compares every vertex, displaced and skinned, and every joint that moves none, in the rest pose and in every clip:

@@ -41,7 +41,8 @@ class PosableMesh {
 public:
     /// \param used  palette entries to keep, see mark_used
     PosableMesh(const Mesh& mesh, const std::vector<bool>& used)
-        : base_(mesh.positions.begin(), mesh.positions.end()), positions_(base_), weights_(mesh.targets.size(), 0.0) {
+        : base_(mesh.positions.begin(), mesh.positions.end()), weights_(mesh.targets.size(), 0.0) {
+        if (!mesh.targets.empty()) positions_ = base_;
         std::vector<std::uint32_t> place(used.size(), kNone);  // per palette entry: its index among the used ones
         if (mesh.influences == 0) {
             joints_ = {mesh.joint};
@@ -62,7 +63,7 @@ public:
                 const std::size_t at = vertex * mesh.influences + k;
                 if (mesh.weights[at] != 0.0f) influences_.push_back({place[mesh.bones[at]], mesh.weights[at]});
             }
-            first_.push_back(influences_.size());
+            first_.push_back(static_cast<std::uint32_t>(influences_.size()));
         }
         for (const MorphTarget& target : mesh.targets) {
             std::vector<Displacement>& list = targets_.emplace_back();
@@ -104,9 +105,10 @@ public:
     }
 
     [[nodiscard]] glm::dvec3 place(std::size_t vertex) const {
+        const glm::dvec3& position = positions_.empty() ? base_[vertex] : positions_[vertex];
         glm::dvec3 sum(0.0);
         for (const Influence& influence : influences(vertex))
-            sum += influence.weight * matrices_[influence.entry](positions_[vertex]);
+            sum += influence.weight * matrices_[influence.entry](position);
         return sum;
     }
 
@@ -130,8 +132,9 @@ private:
     std::vector<std::uint32_t> joints_;
     std::vector<glm::dmat4> inverse_bind_;
     std::vector<Affine> matrices_;
-    std::vector<glm::dvec3> base_, positions_;
-    std::vector<std::size_t> first_;
+    std::vector<glm::dvec3> base_;
+    std::vector<glm::dvec3> positions_;  // displaced by targets; empty if there are none
+    std::vector<std::uint32_t> first_;
     std::vector<Influence> influences_;
     std::vector<std::vector<Displacement>> targets_;
     std::vector<double> weights_;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace bendy::converter {
 namespace {
@@ -103,18 +104,40 @@ void rest_weights(const Scene& scene, EvaluatedPose& pose) {
     }
 }
 
+/// The product of two matrices whose last rows are 0, 0, 0, 1.
+glm::dmat4 product(const glm::dmat4& a, const glm::dmat4& b) {
+    glm::dmat4 result;
+    for (int c = 0; c < 3; ++c) result[c] = a[0] * b[c].x + a[1] * b[c].y + a[2] * b[c].z;
+    result[3] = a[0] * b[3].x + a[1] * b[3].y + a[2] * b[3].z + a[3];
+    return result;
+}
+
 void to_model_space(const Scene& scene, const std::vector<Placement>& locals, EvaluatedPose& pose) {
     pose.joints.resize(scene.joints.size());
     for (std::size_t joint = 0; joint < locals.size(); ++joint) {
         const glm::dmat4 local = to_matrix(locals[joint], glm::dvec3(scene.joints[joint].rest.shear));
         const std::uint32_t parent = scene.joints[joint].parent;
-        pose.joints[joint] = parent == kNone ? local : pose.joints[parent] * local;
+        pose.joints[joint] = parent == kNone ? local : product(pose.joints[parent], local);
     }
+}
+
+/// The number of the first key after a time. \param near  the key before it or the one before that, if known
+std::size_t first_after(std::span<const float> times, double seconds, std::size_t near) {
+    for (std::size_t key = near; key < times.size() && key <= near + 1; ++key) {
+        if (!(times[key] <= seconds)) break;
+        if (key + 1 == times.size() || seconds < times[key + 1]) return key + 1;
+    }
+    return static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), seconds) - times.begin());
 }
 
 }  // namespace
 
 void evaluate_track(const Track& track, double seconds, std::vector<double>& value) {
+    std::size_t near_key = 0;
+    evaluate_track(track, seconds, value, near_key);
+}
+
+void evaluate_track(const Track& track, double seconds, std::vector<double>& value, std::size_t& near_key) {
     const std::size_t n = track.components;
     const bool cubic = track.interpolation == Interpolation::cubic;
     const std::size_t per_key = cubic ? 3 * n : n;
@@ -124,10 +147,10 @@ void evaluate_track(const Track& track, double seconds, std::vector<double>& val
     const std::size_t middle = cubic ? 1 : 0;  // offset of the value within a key
     value.resize(n);
 
-    const auto after = std::upper_bound(track.times.begin(), track.times.end(), seconds);
-    const std::size_t left =
-        after == track.times.begin() ? 0 : static_cast<std::size_t>(after - track.times.begin()) - 1;
-    const bool holds = after == track.times.begin() || after == track.times.end() || track.times[left] == seconds;
+    const std::size_t after = first_after(track.times, seconds, near_key);
+    const std::size_t left = after == 0 ? 0 : after - 1;
+    near_key = left;
+    const bool holds = after == 0 || after == track.times.size() || track.times[left] == seconds;
     if (holds || track.interpolation == Interpolation::step) {
         for (std::size_t c = 0; c < n; ++c) value[c] = at(left, middle, c);
         if (cubic && track.path == TrackPath::rotation) scale_to(1.0, value.data(), n);
@@ -160,8 +183,10 @@ void evaluate(const Scene& scene, const Clip& clip, double seconds, EvaluatedPos
     rest_weights(scene, pose);
     std::vector<Placement> locals = rest_locals(scene);
     std::vector<double> value;
-    for (const Track& track : clip.tracks) {
-        evaluate_track(track, seconds, value);
+    pose.near_keys.resize(clip.tracks.size());
+    for (std::size_t number = 0; number < clip.tracks.size(); ++number) {
+        const Track& track = clip.tracks[number];
+        evaluate_track(track, seconds, value, pose.near_keys[number]);
         switch (track.path) {
             case TrackPath::translation:
                 locals[track.target].translation = {value[0], value[1], value[2]};

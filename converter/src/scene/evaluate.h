@@ -18,6 +18,7 @@ namespace bendy::converter {
 struct EvaluatedPose {
     std::vector<glm::dmat4> joints;                  ///< joint to model space
     std::vector<std::vector<double>> morph_weights;  ///< per mesh
+    std::vector<std::size_t> near_keys{};            ///< per track: where its keys are looked for first
 };
 
 /// The rest pose, with the targets' rest weights.
@@ -29,6 +30,9 @@ void evaluate(const Scene& scene, const Clip& clip, double seconds, EvaluatedPos
 
 /// One track's value at a time: `components` numbers. Linear rotations follow the shortest great arc, cubic ones are
 /// normalised.
+/// \param near_key  any number; receives the key before the time. From there, the interval and the next are searched
+///                  first.
+void evaluate_track(const Track& track, double seconds, std::vector<double>& value, std::size_t& near_key);
 void evaluate_track(const Track& track, double seconds, std::vector<double>& value);
 
 /// A mesh's vertices in model space: displaced by its targets, then moved by its bones, or by its joint if it is rigid.

@@ -17,6 +17,7 @@ struct CompactGeometry;
 struct BuildOptions {
     /// Store every leaf in whichever encoding makes it smallest, and the joints as one table.
     bool compact = false;
+    bool is_draft = false;  ///< with `compact`: leaves are not encoded, for reading the file back at once
     const CompactGeometry* geometry = nullptr;  ///< integers stored instead of the meshes' floats; may be null
 };
 

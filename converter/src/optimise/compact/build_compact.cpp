@@ -73,6 +73,16 @@ std::vector<std::byte> with_bound(Bytes file, const BoundRecord& bound) {
     return std::move(out).finish();
 }
 
+/// Whether measuring at the keys first saves time. It costs microseconds for each vertex; measuring in full costs a
+/// fraction of one for each joint and sample.
+bool are_drafts_worth(const Scene& scene, double seconds) {
+    constexpr double kJointsPerVertex = 8.0;
+    std::size_t vertices = 0;
+    for (const Mesh& mesh : scene.meshes) vertices += mesh.positions.size();
+    const double poses = seconds * kSamplesPerSecond * static_cast<double>(scene.joints.size());
+    return poses > kJointsPerVertex * static_cast<double>(vertices);
+}
+
 /// Counts the curves and the packed ones as put_curves writes them, and finds their largest error.
 void count_curves(const Scene& scene, CompactReport& report) {
     for (const Clip& clip : scene.clips) {
@@ -91,25 +101,29 @@ void count_curves(const Scene& scene, CompactReport& report) {
 std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& options, std::string_view generator,
                                      Report& report) {
     const auto& [bound, progress, threads] = options;
-    constexpr int kAttempts = 6;            // the last one leaves the clips unchanged
+    constexpr int kAttempts = 10;           // the last one leaves the clips unchanged
     constexpr double kPackingShare = 0.6;   // of an attempt
+    constexpr double kDraftShare = 0.2;     // of the rest of an attempt
     constexpr double kAttemptShare = 0.75;  // of the remaining work
     constexpr double kOvershoot = 1.1;      // factor on the reduction of a clip's share when its error is too large
     constexpr double kLeast = 0.2;          // smallest factor on a clip's share from one attempt to the next
     constexpr double kStep = 0.02;  // minimum reduction, doubled at each attempt: small changes may have no effect
+    constexpr int kLastDoubling = 4;
+    constexpr std::size_t kFirstClips = 6;  // of many
+    constexpr std::size_t kFewClips = 12;
 
     CompactReport result;
     result.height = height_at_rest(exact);
     result.max_error = bound.is_share ? bound.value * result.height : bound.value;
-    std::vector<std::byte> plain = build_chunks(exact, generator, report);
-    result.exact = count_bytes(plain);
-    if (!find_limits(exact).can_be_measured) {
-        report.warn("poses too much for its size to be measured: written exactly");
-        return plain;
-    }
+    result.exact = count_bytes(build_chunks(exact, generator, report));
+    Report unheard;  // discarded: all files give the same warnings
+    const auto exactly = [&](std::string_view why) {
+        report.warn(std::string(why) + ": written exactly");
+        return build_chunks(exact, generator, unheard);
+    };
+    if (!find_limits(exact).can_be_measured) return exactly("poses too much for its size to be measured");
 
-    Report unheard;  // discarded: the compact file gives the same warnings
-    Scene geometry_scene = exact;
+    Scene scene = exact;
     const double geometry_share = geometry_share_of(exact);
     // Rough estimate: the geometry takes as long as five seconds of clips.
     constexpr double kGeometryWork = 5.0;
@@ -117,58 +131,84 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
     for (const Clip& clip : exact.clips) seconds += span_of(clip).at(1.0) - span_of(clip).at(0.0);
     const double geometry_done = std::min(0.8, kGeometryWork / (kGeometryWork + seconds));
     const CompactGeometry geometry =
-        compact_geometry(geometry_scene, result.max_error * geometry_share, part_of(progress, 0.0, geometry_done));
+        compact_geometry(scene, result.max_error * geometry_share, part_of(progress, 0.0, geometry_done));
 
     const std::size_t clips = exact.clips.size();
-    Scene scene = geometry_scene;
+    const auto shell = find_probes(exact, Probes::shell);
     std::vector<double> shares(clips, kClipShare);  // of the bound, for each clip
     std::vector<MeasuredError> errors(clips + 1);   // of each clip, and at rest
-    std::vector<std::uint32_t> to_pack(clips);      // numbers of clips that are not yet within the bound
-    std::iota(to_pack.begin(), to_pack.end(), 0u);
+    std::vector<std::uint32_t> all(clips);
+    std::iota(all.begin(), all.end(), 0u);
+    const bool has_drafts = are_drafts_worth(exact, seconds);
+    // The numbers of clips that are not yet within the bound: first some, from which the others' shares follow.
+    const std::size_t stride = has_drafts && clips >= kFewClips ? clips / kFirstClips : 1;
+    std::vector<std::uint32_t> to_pack;
+    std::vector<std::uint32_t> waiting;
+    for (const std::uint32_t clip : all) (clip % stride == 0 ? to_pack : waiting).push_back(clip);
     std::vector<std::byte> bytes;
     double done = geometry_done;
-    double known = 0.0;  // metres: the largest error of the clips that are within the bound
+    // Builds the file and measures clips of it; returns those that are above the bound.
+    const auto above_bound = [&](const std::vector<std::uint32_t>& measured, bool is_draft, double until) {
+        BuildOptions how;
+        how.compact = true;
+        how.is_draft = is_draft;
+        how.geometry = &geometry;
+        bytes = build_chunks(scene, generator, unheard, how);
+        MeasureOptions what{.progress = part_of(progress, done, until),
+                            .threads = threads,
+                            .limit = result.max_error,
+                            .only_keys = is_draft};
+        if (!is_draft) what.shell = shell;
+        for (const std::uint32_t clip : all) {  // what was measured before is in this file, too
+            if (errors[clip].metres <= result.max_error) what.known = std::max(what.known, errors[clip].metres);
+        }
+        const std::vector<MeasuredError> found = measure(exact, geometry, bytes, measured, what);
+        done = until;
+        errors.back() = found.back();
+        std::vector<std::uint32_t> above;
+        for (std::size_t k = 0; k < measured.size(); ++k) {
+            errors[measured[k]] = found[k];
+            if (!(found[k].metres <= result.max_error)) above.push_back(measured[k]);
+        }
+        return above;
+    };
     for (int number = 0; number < kAttempts; ++number) {
         // The first attempt usually is the last: progress never decreases, and keeps some room for more.
         const double attempt_done = done + kAttemptShare * (1.0 - done);
         const double packing_done = done + kPackingShare * (attempt_done - done);
+        const double draft_done = packing_done + kDraftShare * (attempt_done - packing_done);
         std::vector<double> bounds(clips, 0.0);
         for (const std::uint32_t clip : to_pack) {
-            scene.clips[clip] = geometry_scene.clips[clip];
+            scene.clips[clip] = exact.clips[clip];
+            errors[clip] = {};
             if (number + 1 < kAttempts) bounds[clip] = result.max_error * shares[clip];
         }
-        pack_clips(scene, bounds, {.progress = part_of(progress, done, packing_done), .threads = threads});
-        BuildOptions how;
-        how.compact = true;
-        how.geometry = &geometry;
-        bytes = build_chunks(scene, generator, unheard, how);
-        const std::vector<MeasuredError> found = measure(exact, geometry, bytes, to_pack,
-                                                         {.progress = part_of(progress, packing_done, attempt_done),
-                                                          .threads = threads,
-                                                          .known = known,
-                                                          .limit = result.max_error});
-        done = attempt_done;
-        for (std::size_t k = 0; k < to_pack.size(); ++k) errors[to_pack[k]] = found[k];
-        errors.back() = found.back();
-        std::erase_if(to_pack, [&](std::uint32_t clip) {
-            if (!(errors[clip].metres <= result.max_error)) return false;
-            known = std::max(known, errors[clip].metres);
-            return true;
-        });
-        if (to_pack.empty() || !(errors.back().metres <= result.max_error)) break;
+        pack_clips(scene, bounds,
+                   {.progress = part_of(progress, done, packing_done), .threads = threads, .only_keys = true});
+        done = packing_done;
+        // At the keys first, which finds nearly all errors; in full once nothing is left to correct.
+        const std::vector<std::uint32_t> packed = std::move(to_pack);
+        if (has_drafts) to_pack = above_bound(packed, true, draft_done);
+        if (to_pack.empty() && waiting.empty()) to_pack = above_bound(all, false, attempt_done);
+        if ((to_pack.empty() && waiting.empty()) || !(errors.back().metres <= result.max_error)) break;
         for (const std::uint32_t clip : to_pack) {
             const double excess = errors[clip].metres / result.max_error - 1.0;
-            const double less = std::max(kOvershoot * excess, kStep * (1 << number));
+            const double less = std::max(kOvershoot * excess, kStep * (1 << std::min(number, kLastDoubling)));
             shares[clip] = std::max(shares[clip] - less, kLeast * shares[clip]);
         }
+        if (waiting.empty()) continue;
+        double sum = 0.0;
+        for (const std::uint32_t clip : packed) sum += shares[clip];
+        for (const std::uint32_t clip : waiting) shares[clip] = sum / static_cast<double>(packed.size());
+        to_pack.insert(to_pack.end(), waiting.begin(), waiting.end());
+        waiting.clear();
     }
     MeasuredError worst = errors.back();
     for (const MeasuredError& error : errors) {
         if (error.metres > worst.metres) worst = error;
     }
     if (!(worst.metres <= result.max_error)) {
-        report.warn("cannot be kept inside the error that was asked for: written exactly");
-        return plain;
+        return exactly("cannot be kept inside the error that was asked for");
     }
     bytes = with_bound(bytes, {static_cast<float>(result.max_error), static_cast<float>(worst.metres),
                                static_cast<float>(result.height)});

@@ -32,7 +32,8 @@ EncodedLeaf encode_leaf(Bytes payload, const LeafShape& shape);
 /// A ChunkWriter that can store each leaf in its smallest encoding.
 class LeafWriter {
 public:
-    explicit LeafWriter(bool is_compact) : is_compact_(is_compact) {}
+    /// \param is_draft  stores every leaf raw, and is compact otherwise
+    explicit LeafWriter(bool is_compact, bool is_draft = false) : is_compact_(is_compact), is_draft_(is_draft) {}
 
     [[nodiscard]] bool is_compact() const { return is_compact_; }
     void reserve(std::uint64_t bytes) { chunks_.reserve(bytes); }
@@ -43,7 +44,7 @@ public:
     void raw_leaf(FourCC id, std::span<const Bytes> pieces) { chunks_.leaf(id, pieces); }
 
     void leaf(FourCC id, std::span<const Bytes> pieces, const LeafShape& shape = {}) {
-        if (!is_compact_) {
+        if (!is_compact_ || is_draft_) {
             chunks_.leaf(id, pieces);
             return;
         }
@@ -66,6 +67,7 @@ private:
 
     ChunkWriter chunks_;
     bool is_compact_;
+    bool is_draft_;
 };
 
 }  // namespace bendy::converter

@@ -24,8 +24,8 @@ namespace {
 
 struct Packed {
     std::vector<std::byte> bytes;
-    std::uint64_t stored = 0;
     WorstError worst;
+    std::optional<std::uint64_t> cost{};  // see cost_of
 };
 
 /// The payload with the segment length that makes it smallest.
@@ -40,14 +40,18 @@ std::vector<std::byte> smallest_payload(PackedSamples samples) {
     return smallest;
 }
 
-std::uint64_t stored_size(Bytes payload) {
-    const auto encoded = encode_payload(Codec::clip, payload, 0, 0);
-    return encoded && encoded->size() < payload.size() ? encoded->size() : payload.size();
+/// Bytes in memory and on disk, which count equally. Computed when first needed: most clips have no rival.
+std::uint64_t cost_of(Packed& packed) {
+    if (!packed.cost) {
+        const std::uint64_t size = packed.bytes.size();
+        const auto encoded = encode_payload(Codec::clip, packed.bytes, 0, 0);
+        packed.cost = size + (encoded ? std::min<std::uint64_t>(encoded->size(), size) : size);
+    }
+    return *packed.cost;
 }
 
-/// Memory and disk count equally.
-bool is_smaller(const Packed& a, const Packed& b) {
-    return a.bytes.size() + a.stored < b.bytes.size() + b.stored;
+bool is_smaller(Packed& a, Packed& b) {
+    return cost_of(a) < cost_of(b);
 }
 
 /// The clip's tracks, packed within the bound; nothing if that is impossible.
@@ -55,7 +59,7 @@ bool is_smaller(const Packed& a, const Packed& b) {
 /// \param rival    if set: a result that is not smaller is returned unmeasured
 std::optional<Packed> pack(SourceMotion& source, const ClipFrames& frames, const GridTracks& tracks,
                            const std::vector<bool>& is_replaced, const std::vector<std::vector<glm::dvec3>>& probes,
-                           double max_error, double share, bool corrects, const Packed* rival) {
+                           double max_error, double share, bool corrects, Packed* rival) {
     constexpr int kAttempts = 6;
     double aim = 0.998 * share * max_error;  // less than the bound: floats are rounded, and frames are not everything
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -65,7 +69,6 @@ std::optional<Packed> pack(SourceMotion& source, const ClipFrames& frames, const
         const auto joints = static_cast<std::uint32_t>(frames.joints());
         const auto view = read_packed(packed.bytes, joints, 0, faults);
         if (!view) return std::nullopt;
-        packed.stored = stored_size(packed.bytes);
         if (rival != nullptr && !is_smaller(packed, *rival)) return packed;
         packed.worst = measure_packed(source, is_replaced, *view, probes, 8.0 * max_error);
         if (packed.worst.metres <= max_error) return packed;
@@ -91,7 +94,7 @@ std::uint64_t key_bytes(const Clip& clip, const std::vector<bool>* only = nullpt
 /// Packs with corrections, which makes most clips smaller; without them if their error is too large.
 std::optional<Packed> pack_frames(SourceMotion& source, const GridTracks& tracks, const std::vector<bool>& is_replaced,
                                   const std::vector<std::vector<glm::dvec3>>& probes, double max_error, double share,
-                                  const Packed* rival = nullptr) {
+                                  Packed* rival = nullptr) {
     const ClipFrames frames(source.scene(), source.clip(), tracks.grid);
     for (const bool corrects : {true, false}) {
         if (auto packed = pack(source, frames, tracks, is_replaced, probes, max_error, share, corrects, rival))
@@ -150,7 +153,6 @@ PackedReport pack_clip(const Scene& scene, Clip& clip, const std::vector<std::ve
     std::size_t number = 0;
     std::erase_if(clip.tracks, [&](const Track&) { return is_replaced[number++]; });
     report.packed_bytes = best->bytes.size();
-    report.stored_bytes = best->stored;
     report.kept_bytes = key_bytes(clip);
     report.worst_error = best->worst.metres;
     report.worst_joint = best->worst.joint;
@@ -175,7 +177,10 @@ std::size_t most_threads(const Scene& scene) {
 
 std::vector<PackedReport> pack_clips(Scene& scene, std::span<const double> max_errors, const PackOptions& options) {
     const auto probes = find_probes(scene, options.probes);
-    const WorkLimits limits = find_limits(scene);
+    WorkLimits limits = find_limits(scene);
+    if (options.only_keys) {
+        for (ClipLimits& clip : limits.clips) clip.samples = 0;
+    }
     // A clip's time is roughly proportional to its keys. Longest first, so that no thread ends up alone with a long
     // one.
     std::vector<double> sizes;

@@ -19,7 +19,6 @@ struct PackedReport {
     std::uint64_t source_bytes = 0;  ///< key times and values as floats, shared arrays counted once
     std::uint64_t kept_bytes = 0;    ///< the part of these that stays as timed keys
     std::uint64_t packed_bytes = 0;  ///< PACK payload in memory; 0: nothing was packed
-    std::uint64_t stored_bytes = 0;  ///< the same in the file
     double worst_error = 0.0;        ///< metres in model space
     std::uint32_t worst_joint = kNone;
     double worst_time = 0.0;  ///< seconds
@@ -29,6 +28,7 @@ struct PackOptions {
     Probes probes = Probes::skin_and_shell;
     std::function<void(double)> progress{};  ///< called with the fraction done, 0 to 1; may be empty
     std::size_t threads = 1;                 ///< maximum; the result does not depend on it
+    bool only_keys = false;                  ///< measure at the keys alone: the caller measures the rest
 };
 
 /// Packs the clips' tracks (Clip::packed) where that is smaller than timed keys, and removes them from Clip::tracks.

@@ -372,7 +372,7 @@ void release_streams(Mesh& mesh) {
 std::vector<std::byte> build(const Scene& scene, Scene* spent, std::string_view generator, Report& report,
                              const BuildOptions& options) {
     warn_of_unused_images(scene, report);
-    LeafWriter out(options.compact);
+    LeafWriter out(options.compact, options.is_draft);
     // A little extra for headers. Untouched memory costs nothing.
     constexpr std::uint64_t kRoundUp = 1 << 16;
     if (!options.compact) out.reserve(bulk_of(scene) + kRoundUp);
