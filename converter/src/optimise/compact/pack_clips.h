@@ -33,7 +33,8 @@ struct PackOptions {
 
 /// Packs the clips' tracks (Clip::packed) where that is smaller than timed keys, and removes them from Clip::tracks.
 /// Tracks that cannot be packed (stepped or cubic, weights, keys on no grid) stay. No probe is ever farther than the
-/// clip's bound from its place in the source: measured on the resulting bytes, 240 times a second and at all keys.
+/// clip's bound from its place in the source: measured on the resulting bytes, at all keys and, unless
+/// options.only_keys is set, 240 times a second.
 /// \param max_errors  per clip: metres in model space; 0: the clip is unchanged
 std::vector<PackedReport> pack_clips(Scene& scene, std::span<const double> max_errors, const PackOptions& options = {});
 
