@@ -7,6 +7,7 @@
 
 #include <bendy/edit/edit.h>
 #include <bendy/format/diagnostics.h>
+#include <bendy/motion/retarget_clips.h>
 
 #include <nlohmann/json.hpp>
 
@@ -18,6 +19,7 @@
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -29,10 +31,11 @@ using Buffer = std::vector<std::byte>;
 struct EditArguments {
     std::filesystem::path input;
     std::filesystem::path output;
-    std::vector<std::string> strips, renames, joint_renames, roles, extracts;
+    std::vector<std::string> strips, renames, joint_renames, roles, extracts, retargets;
     std::vector<std::filesystem::path> joint_tables, merges;
     std::filesystem::path root;
     std::string same_name = "error";
+    bool ignores_constraints = false, free_feet = false, rests_alike = false;
     bool in_place = false;
     bool quiet = false;
 };
@@ -72,6 +75,18 @@ Buffer read_other(const std::filesystem::path& path, const std::filesystem::path
     return {file->bytes().begin(), file->bytes().end()};
 }
 
+/// "walk.glb:Walk" is a file and a clip in it, unless there is a file of that name.
+std::pair<std::filesystem::path, std::string> split_clip(const std::string& text) {
+    std::error_code ignored;
+    std::size_t colon = text.rfind(':');
+    if (std::filesystem::exists(text, ignored)) colon = std::string::npos;
+    for (; colon != std::string::npos && colon > 0; colon = text.rfind(':', colon - 1)) {
+        if (std::filesystem::exists(text.substr(0, colon), ignored))
+            return {text.substr(0, colon), text.substr(colon + 1)};
+    }
+    return {text, ""};
+}
+
 /// The steps in the order of the command line.
 class Steps {
 public:
@@ -87,6 +102,7 @@ public:
         if (option == "--rename-joints") return add_table(arguments_.joint_tables[number]);
         if (option == "--role") return add_role(arguments_.roles[number]);
         if (option == "--merge") return add_merge(arguments_.merges[number]);
+        if (option == "--retarget") return add_retarget(arguments_.retargets[number]);
         if (option == "--extract") return add_extract(arguments_.extracts[number]);
     }
     std::vector<Step> take() {
@@ -136,20 +152,44 @@ private:
     }
 
     void add_merge(const std::filesystem::path& path) {
-        close_rename();
+        const edit::SameName same_name = read_same_name();
+        add_other("merging", path, [same_name](Bytes file, Bytes other, edit::Log& log) {
+            return edit::merge_clips(file, other, same_name, log);
+        });
+    }
+
+    void add_retarget(const std::string& text) {
+        const auto [path, clip] = split_clip(text);
+        motion::RetargetClips options{clip, {}, read_same_name()};
+        options.retarget.obey_constraints = !arguments_.ignores_constraints;
+        options.retarget.plants_feet = !arguments_.free_feet;
+        if (arguments_.rests_alike) options.retarget.rest_poses = RestPoses::alike;
+        add_other("retargeting", path, [options](Bytes file, Bytes other, edit::Log& log) {
+            return motion::retarget_clips(file, other, options, log);
+        });
+    }
+
+    [[nodiscard]] edit::SameName read_same_name() const {
         const auto same_name = edit::parse_same_name(arguments_.same_name);
         if (!same_name) throw CLI::ValidationError("--same-name", same_name.error().message);
+        return *same_name;
+    }
+
+    /// A step that takes clips from another file.
+    void add_other(const std::string& doing, const std::filesystem::path& path,
+                   const std::function<edit::Edited(Bytes file, Bytes other, edit::Log& log)>& take) {
+        close_rename();
         outputs_.reads(path);
-        steps_.emplace_back([path, root = arguments_.root, same_name = *same_name, &outputs = outputs_](
+        steps_.emplace_back([doing, path, take, root = arguments_.root, &outputs = outputs_](
                                 Bytes file, edit::Log& log) -> edit::Edited {
             const Buffer other = read_other(path, root, outputs);
             const auto first = log.warnings.size();
-            auto merged = edit::merge_clips(file, other, same_name, log);
+            auto taken = take(file, other, log);
             for (std::size_t k = first; k < log.warnings.size(); ++k)
                 log.warnings[k] = path.string() + ": " + log.warnings[k];
-            if (merged) return merged;
-            const bool is_clash = merged.error().message.ends_with("already");
-            return edit::Problem{"merging " + path.string() + ": " + merged.error().message +
+            if (taken) return taken;
+            const bool is_clash = taken.error().message.ends_with("already");
+            return edit::Problem{doing + ' ' + path.string() + ": " + taken.error().message +
                                  (is_clash ? "; --same-name replace or --same-name number says what to do" : "")};
         });
     }
@@ -227,9 +267,17 @@ void add_edit(CLI::App& program) {
         "ROLE=JOINT: what a joint is in the body, as in left_hand=Hand.L or tail:2=Tail3; without JOINT, nobody");
     add("--merge", arguments->merges,
         "add the clips of another file (bendy or glTF); tracks go to the joints of the same name");
+    add("--retarget", arguments->retargets,
+        "FILE or FILE:CLIP; put the clips of another character on this one, whatever its build: inside this one's "
+        "constraints, with planted feet");
+    command->add_flag("--ignore-constraints", arguments->ignores_constraints, "of --retarget: go beyond constraints");
+    command->add_flag("--free-feet", arguments->free_feet, "of --retarget: do not bring feet to the ground");
+    command->add_flag("--rests-alike", arguments->rests_alike,
+                      "of --retarget: both characters rest in the same pose, as VRM demands; joints then turn exactly "
+                      "as the other's");
     command
         ->add_option("--same-name", arguments->same_name,
-                     "what --merge does if a clip of that name exists: error; replace the existing clip; or number the "
+                     "what --merge and --retarget do if a clip of that name exists: error; replace the existing clip; or number the "
                      "new one, as in Run.001")
         ->check(one_of({"error", "replace", "number"}))
         ->capture_default_str();
@@ -254,7 +302,8 @@ void add_edit(CLI::App& program) {
         const auto taken = steps.take();
         if (taken.empty()) {
             throw CLI::ValidationError("edit",
-                                       "there is nothing to do: --strip, --rename-joint, --role, --merge, --extract");
+                                       "there is nothing to do: --strip, --rename-joint, --role, --merge, --retarget, "
+                                       "--extract");
         }
         run(*arguments, taken, outputs);
     });
