@@ -188,9 +188,10 @@ private:
             for (std::size_t k = first; k < log.warnings.size(); ++k)
                 log.warnings[k] = path.string() + ": " + log.warnings[k];
             if (taken) return taken;
-            const bool is_clash = taken.error().message.ends_with("already");
-            return edit::Problem{doing + ' ' + path.string() + ": " + taken.error().message +
-                                 (is_clash ? "; --same-name replace or --same-name number says what to do" : "")};
+            std::string text = doing + ' ' + path.string() + ": " + taken.error().message;
+            if (text.ends_with("already")) text += "; --same-name replace or --same-name number says what to do";
+            if (text.ends_with("retarget its clips instead")) text += ": --retarget " + path.string();
+            return edit::Problem{std::move(text)};
         });
     }
 

@@ -241,7 +241,41 @@ public:
                                      "\" here? renaming fixes that)";
     }
 
+    /// Where the clips move joints: how many times as far from their parents these joints rest there.
+    struct Scale {
+        double times = 1.0;  ///< the median
+        std::size_t joint = 0;  ///< there, one of that scale
+    };
+    [[nodiscard]] Scale scale(std::span<const bool> is_moved) const {
+        std::vector<Scale> found;
+        for (std::size_t j = 0; j < map_.joints.size(); ++j) {
+            if (!is_moved[j] || map_.joints[j] == kNone) continue;
+            const double from = distance(there_.skeleton.joints[j].rest);
+            const double to = distance(here_.skeleton.joints[map_.joints[j]].rest);
+            if (from > 0.0 && to > 0.0) found.push_back({from / to, j});
+        }
+        if (found.empty()) return {};
+        const auto middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
+        std::nth_element(found.begin(), middle, found.end(),
+                         [](const Scale& a, const Scale& b) { return a.times < b.times; });
+        return *middle;
+    }
+    /// Says "its joints rest 100 times as far apart as here".
+    [[nodiscard]] std::string describe_scale(const Scale& scale) const {
+        const JointView& joint = there_.skeleton.joints[scale.joint];
+        std::array<char, 128> text{};
+        std::snprintf(text.data(), text.size(), "\" rests %.3g from its parent there and %.3g here, ",
+                      distance(joint.rest), distance(here_.skeleton.joints[map_.joints[scale.joint]].rest));
+        const std::string lengths = text.data();
+        std::snprintf(text.data(), text.size(), "%.3g times as far", scale.times);
+        return "the skeletons differ in scale: \"" + std::string(joint.name) + lengths + text.data();
+    }
+
 private:
+    static double distance(const RestRecord& rest) {
+        return std::hypot(double{rest.translation[0]}, double{rest.translation[1]}, double{rest.translation[2]});
+    }
+
     void warn_of_rests(Log& log) const {
         RestDifference most;
         std::size_t differing = 0;
@@ -267,6 +301,18 @@ private:
     const ObjectView& here_;
     TrackMap map_;
 };
+
+/// Marks the joints that the clips of an object move.
+void mark_moved(const ObjectView& object, std::span<bool> joints) {
+    for (const ClipView& clip : object.clips) {
+        for (const TrackView& track : clip.tracks) {
+            if (track.path == TrackPath::translation) joints[track.target] = true;
+        }
+        if (!clip.packed) continue;
+        for (std::uint32_t j = 0; j < clip.packed->record.joints; ++j)
+            joints[j] = joints[j] || clip.packed->animates(j, TrackPath::translation);
+    }
+}
 
 /// Marks what the clips of an object animate.
 void mark_animated(const ObjectView& object, std::span<bool> joints, std::set<std::uint32_t>& meshes) {
@@ -296,6 +342,7 @@ public:
           placer_(files, pairing_.map().joints, pairing_.meshes(), same_name, log) {}
 
     Edited merge() {
+        if (const auto scaled = check_scale()) return *scaled;
         std::vector<std::size_t> useless;
         for (std::size_t k = 0; k < from_.clips.size(); ++k) {
             const ClipView& clip = from_.clips[k];
@@ -317,6 +364,22 @@ public:
     }
 
 private:
+    /// A clip in other units is refused, one of a larger or smaller character is not.
+    [[nodiscard]] std::optional<Problem> check_scale() {
+        constexpr double kNoticeable = 1.1, kOtherUnits = 10.0;
+        const auto moved = std::make_unique<bool[]>(from_.skeleton.joints.size());
+        const std::span<bool> is_moved(moved.get(), from_.skeleton.joints.size());
+        mark_moved(from_, is_moved);
+        const Pairing::Scale scale = pairing_.scale(is_moved);
+        const double factor = std::max(scale.times, 1.0 / scale.times);
+        if (factor >= kOtherUnits) return Problem{pairing_.describe_scale(scale) + "; export its clips in the units of this file or, of humans, retarget its clips instead"};
+        if (factor > kNoticeable) {
+            log_.warnings.push_back(pairing_.describe_scale(scale) +
+                                    "; retargeting fits clips to a character of another size");
+        }
+        return std::nullopt;
+    }
+
     void tell() {
         const auto animated = std::make_unique<bool[]>(from_.skeleton.joints.size());
         std::set<std::uint32_t> meshes;
@@ -355,7 +418,8 @@ private:
         if (missing.empty()) return {"its clips animate nothing in this file"};
         return {"its clips animate " + std::to_string(missing.size()) +
                 (missing.size() == 1 ? " joint, which is not here: " : " joints and none of them is here: ") +
-                list_names(names_of(from_.skeleton.joints), missing, 4) + pairing_.explain(missing.front())};
+                list_names(names_of(from_.skeleton.joints), missing, 4) + pairing_.explain(missing.front()) +
+                "; if both are humans, retarget its clips instead"};
     }
 
     Result<void, Problem> put_clip(const ClipView& clip, const TrackCounts& counts) {
