@@ -45,14 +45,14 @@ Result<ClipFiles, Problem> open_clip_files(Bytes file, Bytes other, Log& log) {
     auto here = open_source(file);
     if (!here) return here.error();
     auto there = open_source(other);
-    if (!there) return Problem{"the file to merge: " + there.error().message};
+    if (!there) return Problem{"the other file: " + there.error().message};
     if (here->document.objects.empty()) return Problem{"there is no object that could have clips"};
     const auto& objects = there->document.objects;
     const auto has_clips = [](const ObjectView& object) { return !object.clips.empty(); };
     const auto from = std::find_if(objects.begin(), objects.end(), has_clips);
-    if (from == objects.end()) return Problem{"the file to merge has no clips"};
+    if (from == objects.end()) return Problem{"the other file has no clips"};
     if (std::any_of(std::next(from), objects.end(), has_clips))
-        log.warnings.emplace_back("only the clips of its first object that has some are merged");
+        log.warnings.emplace_back("only the clips of its first object that has some are taken");
     const auto object = static_cast<std::size_t>(from - objects.begin());
     return ClipFiles{*std::move(here), *std::move(there), object};
 }

@@ -10,8 +10,8 @@
 namespace bendy::motion {
 
 struct RetargetClips {
-    std::string clip;  ///< which of the other file's clips: see edit::find_named; empty: all of them
-    RetargetOptions retarget;
+    std::string clip{};  ///< which of the other file's clips: see edit::find_named; empty: all of them
+    RetargetOptions retarget{};
     edit::SameName same_name = edit::SameName::error;
 };
 
