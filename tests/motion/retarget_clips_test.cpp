@@ -100,9 +100,9 @@ TEST(RetargetClips, ACharacterItselfKeepsItsTracksByteForByte) {
 
 TEST(RetargetClips, TracksSayWhatRetargetSays) {
     const Buffer source = swinger();
-    for (const HumanSpec& build : {HumanSpec{.arms_down = 60, .thigh = 0.3, .axes = 4},
-                                   HumanSpec{.facing = 90, .spine = 2, .axes = 5},
-                                   HumanSpec{.is_z_up = true, .spine = 1, .is_detached = true, .axes = 6}}) {
+    for (const HumanSpec& build :
+         {HumanSpec{.arms_down = 60, .thigh = 0.3, .axes = 4}, HumanSpec{.facing = 90, .spine = 2, .axes = 5},
+          HumanSpec{.is_z_up = true, .spine = 1, .is_detached = true, .axes = 6}}) {
         edit::Log log;
         const test::Owned made(retargeted(counted(HumanModel(build).spec), source, {"", kDirections}, log));
         const test::Owned there(source);
@@ -180,7 +180,10 @@ Buffer stepper() {
     const HumanModel human(HumanSpec{.axes = 0});
     ClipSpec clip{"Step"};
     const float half = 0.5f;
-    clip.tracks.push_back({TrackPath::rotation, human.joint("leftUpLeg"), 4, {0, 0.5f, 1},
+    clip.tracks.push_back({TrackPath::rotation,
+                           human.joint("leftUpLeg"),
+                           4,
+                           {0, 0.5f, 1},
                            {0, 0, 0, 1, -std::sin(half), 0, 0, std::cos(half), 0, 0, 0, 1}});
     return file_of(human, {clip});
 }
@@ -274,7 +277,8 @@ TEST(RetargetClips, SaysWhatIsMissing) {
     const Buffer human = counted(HumanModel(HumanSpec{}).spec);
     const Buffer source = swinger();
     EXPECT_EQ(problem_of(human, human), "the source has no clips");
-    EXPECT_EQ(problem_of(human, source, {"Swim"}), "there is no clip \"Swim\"; did you mean \"Swing\"? There is \"Swing\"");
+    EXPECT_EQ(problem_of(human, source, {"Swim"}),
+              "there is no clip \"Swim\"; did you mean \"Swing\"? There is \"Swing\"");
     EXPECT_EQ(problem_of(source, source), "there is a clip \"Swing\" already");
     const std::string nobody = problem_of(counted(HumanModel(HumanSpec{.has_roles = false}).spec), source);
     EXPECT_TRUE(nobody.starts_with("the target does not say what its joints are: ")) << nobody;

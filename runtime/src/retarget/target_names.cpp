@@ -8,12 +8,22 @@ namespace bendy {
 namespace {
 
 /// ARKit's names without left and right.
-constexpr std::string_view kArkit[] = {
-    "browdown",  "browinnerup", "browouterup",    "cheekpuff",      "cheeksquint",    "eyeblink",       "eyelookdown",
-    "eyelookin", "eyelookout",  "eyelookup",      "eyesquint",      "eyewide",        "jawforward",     "jaw",
-    "jawopen",   "mouthclose",  "mouthdimple",    "mouthfrown",     "mouthfunnel",    "mouth",          "mouthlowerdown",
-    "mouthpress", "mouthpucker", "mouthrolllower", "mouthrollupper", "mouthshruglower", "mouthshrugupper", "mouthsmile",
-    "mouthstretch", "mouthupperup", "nosesneer",    "tongueout"};
+constexpr std::string_view kArkit[] = {"browdown",        "browinnerup",
+                                       "browouterup",     "cheekpuff",
+                                       "cheeksquint",     "eyeblink",
+                                       "eyelookdown",     "eyelookin",
+                                       "eyelookout",      "eyelookup",
+                                       "eyesquint",       "eyewide",
+                                       "jawforward",      "jaw",
+                                       "jawopen",         "mouthclose",
+                                       "mouthdimple",     "mouthfrown",
+                                       "mouthfunnel",     "mouth",
+                                       "mouthlowerdown",  "mouthpress",
+                                       "mouthpucker",     "mouthrolllower",
+                                       "mouthrollupper",  "mouthshruglower",
+                                       "mouthshrugupper", "mouthsmile",
+                                       "mouthstretch",    "mouthupperup",
+                                       "nosesneer",       "tongueout"};
 
 constexpr std::string_view kSeparators = " _-.:|";
 

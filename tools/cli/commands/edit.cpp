@@ -278,7 +278,8 @@ void add_edit(CLI::App& program) {
                       "as the other's");
     command
         ->add_option("--same-name", arguments->same_name,
-                     "what --merge and --retarget do if a clip of that name exists: error; replace the existing clip; or number the "
+                     "what --merge and --retarget do if a clip of that name exists: error; replace the existing clip; "
+                     "or number the "
                      "new one, as in Run.001")
         ->check(one_of({"error", "replace", "number"}))
         ->capture_default_str();

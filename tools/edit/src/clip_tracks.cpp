@@ -333,7 +333,7 @@ private:
     std::size_t plays_ = 0;                    // number that remain
     std::map<const WeightMap*, std::vector<std::uint32_t>> targets_there_;  // for each target here, the one in the
                                                                             // other object
-    std::vector<UnpackedTrack> decoded_;  // and added ones
+    std::vector<UnpackedTrack> decoded_;                                    // and added ones
     std::vector<float> new_times_, new_values_;
     std::map<std::tuple<std::uint64_t, std::uint32_t, std::uint8_t, const WeightMap*>, std::uint64_t> laid_;
     std::uint64_t copied_ = 0;

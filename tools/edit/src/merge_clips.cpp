@@ -243,7 +243,7 @@ public:
 
     /// Where the clips move joints: how many times as far from their parents these joints rest there.
     struct Scale {
-        double times = 1.0;  ///< the median
+        double times = 1.0;     ///< the median
         std::size_t joint = 0;  ///< there, one of that scale
     };
     [[nodiscard]] Scale scale(std::span<const bool> is_moved) const {
@@ -372,7 +372,9 @@ private:
         mark_moved(from_, is_moved);
         const Pairing::Scale scale = pairing_.scale(is_moved);
         const double factor = std::max(scale.times, 1.0 / scale.times);
-        if (factor >= kOtherUnits) return Problem{pairing_.describe_scale(scale) + "; export its clips in the units of this file or, of humans, retarget its clips instead"};
+        if (factor >= kOtherUnits)
+            return Problem{pairing_.describe_scale(scale) +
+                           "; export its clips in the units of this file or, of humans, retarget its clips instead"};
         if (factor > kNoticeable) {
             log_.warnings.push_back(pairing_.describe_scale(scale) +
                                     "; retargeting fits clips to a character of another size");
@@ -426,9 +428,8 @@ private:
         const auto placed = placer_.put(clip);
         if (!placed) return placed.error();
         log_.done.push_back(
-            (placed->replaces ? "replaced clip \"" : "merged clip \"") + placed->name +
-            "\": " + contents_of(clip, counts) +
-            (counts.go == 0 ? "" : ", " + std::to_string(counts.go) + " left out") +
+            (placed->replaces ? "replaced clip \"" : "merged clip \"") + placed->name + "\": " +
+            contents_of(clip, counts) + (counts.go == 0 ? "" : ", " + std::to_string(counts.go) + " left out") +
             (counts.decoded == 0 ? "" : ", " + std::to_string(counts.decoded) + " decoded, for another rest pose"));
         return {};
     }

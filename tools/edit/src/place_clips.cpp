@@ -87,8 +87,8 @@ Result<TrackCounts, Problem> ClipPlacer::change(const ClipView& clip, const Trac
         [&](std::uint32_t chunk, const Renumbered& now) {
             const std::string leaf = name_of_leaf(tree, chunk);
             if (now.payload || now.lost.empty() || leaf.empty()) return;
-            log_.warnings.push_back(leaf + " is left out: there is no " +
-                                    std::string(name_of(now.lost.back().entity)) + " of that name here");
+            log_.warnings.push_back(leaf + " is left out: there is no " + std::string(name_of(now.lost.back().entity)) +
+                                    " of that name here");
         },
         sending_);
     return counts;
@@ -142,8 +142,7 @@ void ClipPlacer::put_bound() {
     const auto& theirs = files_.there.document.bound;
     if (!theirs) return;
     const std::uint32_t chunk = files_.here.tree.find(0, FourCC("BNDS"));
-    log_.warnings.emplace_back(
-        "its clips are encoded for size; the error that is stated was measured on its own skin");
+    log_.warnings.emplace_back("its clips are encoded for size; the error that is stated was measured on its own skin");
     if (chunk == kNone) {
         BoundRecord bound = *theirs;
         rewrite_.insert_after(files_.here.tree.find(0, FourCC("VERS")), whole_leaf(FourCC("BNDS"), bytes_of(bound)));

@@ -39,8 +39,8 @@ Edited put_clips(Bytes file, Bytes other, const Transfer& transfer, SameName sam
         for (const Buffer& curve : one.curves) placer.add_curve(clip, curve);
         const auto placed = placer.put(clip);
         if (!placed) return placed.error();
-        log.done.push_back((placed->replaces ? "replaced clip \"" : "retargeted clip \"") + placed->name + "\": " +
-                           one.report);
+        log.done.push_back((placed->replaces ? "replaced clip \"" : "retargeted clip \"") + placed->name +
+                           "\": " + one.report);
     }
     return placer.finish();
 }

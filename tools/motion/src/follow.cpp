@@ -180,8 +180,8 @@ private:
         const auto to = target_.model().joints();
         for (std::uint32_t joint = 0; joint < frame.size(); ++joint) {
             const std::uint32_t from = retarget_.joints()[joint];
-            const bool is_as_long = frame[joint].translation == to[joint].rest.translation &&
-                                    frame[joint].scale == to[joint].rest.scale;
+            const bool is_as_long =
+                frame[joint].translation == to[joint].rest.translation && frame[joint].scale == to[joint].rest.scale;
             if (from != kNone && is_as_long && is_stretched(now[from], source_.model().joints()[from].rest))
                 result_.stretches[from] = true;
         }
@@ -227,7 +227,8 @@ private:
     }
 
     template <std::size_t N, class Get>
-    void add_track(std::uint32_t joint, TrackPath path, const std::array<float, N>& rest, double bound, const Get& get) {
+    void add_track(std::uint32_t joint, TrackPath path, const std::array<float, N>& rest, double bound,
+                   const Get& get) {
         Samples samples{N, path == TrackPath::rotation, {}};
         for (const Frame& frame : frames_) {
             const std::array<float, N> value = get(frame[joint]);

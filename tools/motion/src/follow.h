@@ -29,12 +29,12 @@ struct Followed {
     std::vector<bool> kept;             ///< by joint of the source: the target's has its numbers in every frame
     std::vector<UnpackedTrack> tracks;  ///< of all that is not kept and not at rest
     std::vector<ContactCurve> contacts;
-    bool has_contacts = false;  ///< they came with the clip
+    bool has_contacts = false;    ///< they came with the clip
     std::vector<bool> moves;      ///< by joint of the source: it turns or moves at all
     std::vector<bool> stretches;  ///< it changes its length or its scale, and the target's does not
 
-    std::size_t frames = 0, limited = 0;  ///< limited: frames in which a limit acted
-    std::map<std::uint32_t, Held> held;   ///< by joint of the target; each frame counts for its worst joint
+    std::size_t frames = 0, limited = 0;    ///< limited: frames in which a limit acted
+    std::map<std::uint32_t, Held> held;     ///< by joint of the target; each frame counts for its worst joint
     float missed = 0.0f, missed_at = 0.0f;  ///< metres, seconds: see Retargeted
     std::uint32_t missed_joint = kNone;
     float lowered = 0.0f;

@@ -74,7 +74,8 @@ Problem explain(const RetargetError& error, const Model& source, const Model& ta
     for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = k;
     std::string text = error_text(error);
     if (error.reason == RetargetError::Reason::no_size) return {text + ": is there no rest pose?"};
-    text += " (it has " + counted(numbers.size(), "joint") + ": " + list_names(names_of(model.joints()), numbers, 6) + ")";
+    text +=
+        " (it has " + counted(numbers.size(), "joint") + ": " + list_names(names_of(model.joints()), numbers, 6) + ")";
     const Role example = error.missing.empty() ? Role::hips : error.missing.front();
     return {text + ", as in {\"bendy_rig\": 1, \"roles\": {\"" +
             std::string(kValueNames<Role>[static_cast<std::size_t>(example)]) + "\": \"NAME\"}}"};
@@ -248,8 +249,11 @@ private:
             const auto& [joint, held] = worst[k];
             const Constraint* limit = target_.constraint(joint);
             const std::string kind =
-                limit == nullptr ? "" : std::string(kShownNames<ConstraintModel>[static_cast<std::size_t>(limit->record.model)]) + ", ";
-            text += (k == 0 ? " " : ", ") + name_of(joint) + " (" + kind + degrees(held.angle) + with(" at %.3g s)", held.seconds);
+                limit == nullptr
+                    ? ""
+                    : std::string(kShownNames<ConstraintModel>[static_cast<std::size_t>(limit->record.model)]) + ", ";
+            text += (k == 0 ? " " : ", ") + name_of(joint) + " (" + kind + degrees(held.angle) +
+                    with(" at %.3g s)", held.seconds);
         }
         return text;
     }
@@ -270,7 +274,8 @@ private:
         }
         if (const auto stretched = numbers_in(stretched_); !stretched.empty()) {
             log_.warnings.push_back("limbs keep their lengths; the clips move or scale " +
-                                    counted(stretched.size(), "joint") + " against its parent: " + list_names(names, stretched));
+                                    counted(stretched.size(), "joint") +
+                                    " against its parent: " + list_names(names, stretched));
         }
         std::set<std::uint32_t> found(retarget_.morph_targets().begin(), retarget_.morph_targets().end());
         std::vector<std::string_view> lost;

@@ -9,10 +9,10 @@
 namespace bendy::motion {
 namespace {
 
-constexpr double kRate = 120.0;            // samples per second
-constexpr std::size_t kForKey = 16;       // samples per key
-constexpr std::size_t kForClip = 1'000;   // and for a clip
-constexpr float kApart = 0.0005f;         // seconds
+constexpr double kRate = 120.0;          // samples per second
+constexpr std::size_t kForKey = 16;      // samples per key
+constexpr std::size_t kForClip = 1'000;  // and for a clip
+constexpr float kApart = 0.0005f;        // seconds
 
 std::vector<float> key_times(const Clip& clip) {
     std::vector<float> times{clip.start, clip.end};
@@ -24,8 +24,8 @@ std::vector<float> key_times(const Clip& clip) {
             known.push_back(track.times.data());
         }
         for (std::uint32_t k = 0; k < track.keys; ++k) {
-            const float time = track.times.empty() ? clip.start + static_cast<float>(k) / clip.frame_rate
-                                                   : track.times[k];
+            const float time =
+                track.times.empty() ? clip.start + static_cast<float>(k) / clip.frame_rate : track.times[k];
             times.push_back(time);
             if (jumps && k > 0) times.push_back(std::nextafter(time, -std::numeric_limits<float>::infinity()));
         }
@@ -61,7 +61,8 @@ std::vector<float> sample_times(const Clip& clip, std::size_t most) {
     std::vector<float> times;
     const auto fill = [&](double from, double to, std::size_t parts) {
         for (std::size_t k = 0; k < parts; ++k) {
-            const auto time = static_cast<float>(from + (to - from) * static_cast<double>(k) / static_cast<double>(parts));
+            const auto time =
+                static_cast<float>(from + (to - from) * static_cast<double>(k) / static_cast<double>(parts));
             if (times.empty() || time > times.back()) times.push_back(time);
         }
     };

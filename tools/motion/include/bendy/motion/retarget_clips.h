@@ -26,9 +26,9 @@ struct RetargetClips {
 /// right_heel_contact and right_toes_contact, from 0 in the air to 1 on the ground. Where the source's clip has one of
 /// them, they are taken from it and are not looked for.
 ///
-/// A clip that animates nothing that has a counterpart is left out with a warning. A problem, if none is left: no clips,
-/// no clip of that name, a character that is no human or lacks a role, a name that exists already, numbers that are not
-/// finite.
+/// A clip that animates nothing that has a counterpart is left out with a warning. A problem, if none is left: no
+/// clips, no clip of that name, a character that is no human or lacks a role, a name that exists already, numbers that
+/// are not finite.
 edit::Edited retarget_clips(Bytes file, Bytes other, const RetargetClips& options, edit::Log& log);
 
 inline constexpr double kMostTurned = 0.0002;  ///< radians
