@@ -2,6 +2,7 @@
 #include <bendy/runtime/retarget.h>
 
 #include "mutation/allocations.h"
+#include "retarget/target_names.h"
 #include "runtime/human_model.h"
 #include "runtime/local_joints.h"
 
@@ -320,6 +321,17 @@ TEST(Retarget, MorphTargetsOfTheSameNameComeAlong) {
     EXPECT_EQ(to.morph_weights()[0], 0.0f);
     EXPECT_EQ(to.morph_weights()[1], 0.75f);
     EXPECT_EQ(retargeted->morph_targets()[0], kNone);
+}
+
+TEST(Retarget, MorphTargetsFollowInOtherSpellings) {
+    EXPECT_EQ(target_key("eyeBlinkLeft"), target_key("EyeBlink_L"));
+    EXPECT_EQ(target_key("eyeBlinkLeft"), target_key("Head.eye blink.l"));
+    EXPECT_EQ(target_key("jawOpen"), target_key("blendShape1.jawOpen"));
+    EXPECT_EQ(target_key("jawRight"), target_key("ARKit_jaw_R"));
+    EXPECT_NE(target_key("mouthSmileLeft"), target_key("mouthSmileRight"));
+    EXPECT_NE(target_key("A.Smile"), target_key("B.Smile"));  // not of ARKit
+    EXPECT_EQ(target_key("A.Smile"), target_key("a_smile"));
+    EXPECT_EQ(target_key("._"), "");
 }
 
 /// An elbow that bends by an angle of any axis at most.

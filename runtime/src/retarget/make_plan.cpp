@@ -1,6 +1,7 @@
 #include "body.h"
 #include "joint_pairs.h"
 #include "retarget_plan.h"
+#include "target_names.h"
 
 #include "pose/ik_link.h"
 
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -276,6 +278,26 @@ private:
         for (std::uint32_t from = 0; from < names.targets().size(); ++from) {
             const std::uint32_t to = names.targets()[from];
             if (to != kNone && plan_.morph_targets[to] == kNone) plan_.morph_targets[to] = from;
+        }
+        match_spellings();
+    }
+
+    /// The others follow the first one there whose name is the same but for its spelling.
+    void match_spellings() {
+        std::map<std::string, std::uint32_t> by_key;
+        std::uint32_t number = 0;
+        for (const Mesh& mesh : plan_.source.meshes()) {
+            for (const MorphTargetView& target : mesh.targets) by_key.try_emplace(target_key(target.name), number++);
+        }
+        by_key.erase("");
+        number = 0;
+        for (const Mesh& mesh : plan_.target.meshes()) {
+            for (const MorphTargetView& target : mesh.targets) {
+                std::uint32_t& from = plan_.morph_targets[number++];
+                if (from != kNone) continue;
+                const auto found = by_key.find(target_key(target.name));
+                if (found != by_key.end()) from = found->second;
+            }
         }
     }
 

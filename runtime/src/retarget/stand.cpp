@@ -66,7 +66,7 @@ FootContact find_contact(const RetargetPlan& plan, const FootPlan& foot, PoseSta
     found.heel = eased(height_of(plan, foot.heel, source), kHeelStands, kHeelLeft);
     if (foot.toes.source == kNone) return found;
     const float toes = eased(height_of(plan, foot.toes, source), kToesStand, kToesLeft);
-    if (found.heel > 0.0f || last_toes > 0.0f) found.toes = toes;
+    found.toes = std::min(toes, std::max(found.heel, last_toes));
     return found;
 }
 

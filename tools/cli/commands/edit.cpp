@@ -8,6 +8,7 @@
 #include <bendy/edit/clips.h>
 #include <bendy/edit/edit.h>
 #include <bendy/format/diagnostics.h>
+#include <bendy/motion/retarget_clips.h>
 
 #include <nlohmann/json.hpp>
 
@@ -20,6 +21,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -34,6 +36,7 @@ struct EditArguments {
     std::map<std::string, std::vector<std::string>> texts;  // of each option that makes steps, in its order
     std::filesystem::path root;
     std::string same_name = "error";
+    bool ignores_constraints = false, free_feet = false, rests_alike = false;
     bool in_place = false;
     bool quiet = false;
 };
@@ -71,6 +74,18 @@ Buffer read_other(const std::filesystem::path& path, const std::filesystem::path
     for (const converter::SourceFile& source : unheard.sources()) outputs.reads(source.file);
     if (!file) fail(file_of(file.error(), path), describe(file.error()));
     return {file->bytes().begin(), file->bytes().end()};
+}
+
+/// "walk.glb:Walk" is a file and a clip in it, unless there is a file of that name.
+std::pair<std::filesystem::path, std::string> split_clip(const std::string& text) {
+    std::error_code ignored;
+    std::size_t colon = text.rfind(':');
+    if (std::filesystem::exists(text, ignored)) colon = std::string::npos;
+    for (; colon != std::string::npos && colon > 0; colon = text.rfind(':', colon - 1)) {
+        if (std::filesystem::exists(text.substr(0, colon), ignored))
+            return {text.substr(0, colon), text.substr(colon + 1)};
+    }
+    return {text, ""};
 }
 
 /// The steps in the order of the command line.
@@ -168,22 +183,46 @@ private:
         push([what = *what](Bytes file, edit::Log& log) { return edit::set_role(file, what, log); });
     }
 
-    void add_merge(const std::string& text) {
-        const std::filesystem::path path(text);
+    void add_merge(const std::string& path) {
+        const edit::SameName same_name = read_same_name();
+        add_other("merging", path, [same_name](Bytes file, Bytes other, edit::Log& log) {
+            return edit::merge_clips(file, other, same_name, log);
+        });
+    }
+
+    void add_retarget(const std::string& text) {
+        const auto [path, clip] = split_clip(text);
+        motion::RetargetClips options{clip, {}, read_same_name()};
+        options.retarget.obey_constraints = !arguments_.ignores_constraints;
+        options.retarget.plants_feet = !arguments_.free_feet;
+        if (arguments_.rests_alike) options.retarget.rest_poses = RestPoses::alike;
+        add_other("retargeting", path, [options](Bytes file, Bytes other, edit::Log& log) {
+            return motion::retarget_clips(file, other, options, log);
+        });
+    }
+
+    [[nodiscard]] edit::SameName read_same_name() const {
         const auto same_name = edit::parse_same_name(arguments_.same_name);
         if (!same_name) throw CLI::ValidationError("--same-name", same_name.error().message);
+        return *same_name;
+    }
+
+    /// A step that takes clips from another file.
+    void add_other(const std::string& doing, const std::filesystem::path& path,
+                   const std::function<edit::Edited(Bytes file, Bytes other, edit::Log& log)>& take) {
         outputs_.reads(path);
-        push([path, root = arguments_.root, same_name = *same_name, &outputs = outputs_](
-                 Bytes file, edit::Log& log) -> edit::Edited {
+        push([doing, path, take, root = arguments_.root, &outputs = outputs_](Bytes file,
+                                                                              edit::Log& log) -> edit::Edited {
             const Buffer other = read_other(path, root, outputs);
             const auto first = log.warnings.size();
-            auto merged = edit::merge_clips(file, other, same_name, log);
+            auto taken = take(file, other, log);
             for (std::size_t k = first; k < log.warnings.size(); ++k)
                 log.warnings[k] = path.string() + ": " + log.warnings[k];
-            if (merged) return merged;
-            const bool is_clash = merged.error().message.ends_with("already");
-            return edit::Problem{"merging " + path.string() + ": " + merged.error().message +
-                                 (is_clash ? "; --same-name replace or --same-name number says what to do" : "")};
+            if (taken) return taken;
+            std::string text = doing + ' ' + path.string() + ": " + taken.error().message;
+            if (text.ends_with("already")) text += "; --same-name replace or --same-name number says what to do";
+            if (text.ends_with("retarget its clips instead")) text += ": --retarget " + path.string();
+            return edit::Problem{std::move(text)};
         });
     }
 
@@ -205,6 +244,7 @@ const std::map<std::string, Steps::Maker> Steps::kMakers{{"--strip", &Steps::add
                                                          {"--rename-joints", &Steps::add_table},
                                                          {"--role", &Steps::add_role},
                                                          {"--merge", &Steps::add_merge},
+                                                         {"--retarget", &Steps::add_retarget},
                                                          {"--extract", &Steps::add_extract},
                                                          {"--influences", &Steps::add_influences}};
 
@@ -270,9 +310,18 @@ void add_edit(CLI::App& program) {
         add("--" + std::string(word.word), std::string(word.shape) + ": " + std::string(word.help));
     add("--influences", "N: at most N influences per vertex, the largest, scaled to the same sum");
     add("--merge", "add the clips of another file (bendy or glTF); tracks go to the joints of the same name");
+    add("--retarget",
+        "FILE or FILE:CLIP; put the clips of another character on this one, whatever its build: inside this one's "
+        "constraints, with planted feet");
+    command->add_flag("--ignore-constraints", arguments->ignores_constraints, "of --retarget: go beyond constraints");
+    command->add_flag("--free-feet", arguments->free_feet, "of --retarget: do not bring feet to the ground");
+    command->add_flag("--rests-alike", arguments->rests_alike,
+                      "of --retarget: both characters rest in the same pose, as VRM demands; joints then turn exactly "
+                      "as the other's");
     command
         ->add_option("--same-name", arguments->same_name,
-                     "what --merge does if a clip of that name exists: error; replace the existing clip; or number the "
+                     "what --merge and --retarget do if a clip of that name exists: error; replace the existing clip; "
+                     "or number the "
                      "new one, as in Run.001")
         ->check(one_of({"error", "replace", "number"}))
         ->capture_default_str();
@@ -296,7 +345,8 @@ void add_edit(CLI::App& program) {
         const auto taken = steps.take();
         if (taken.empty()) {
             throw CLI::ValidationError(
-                "edit", "there is nothing to do: --strip, --rename-joint, --role, --trim, --merge, --extract, ...");
+                "edit",
+                "there is nothing to do: --strip, --rename-joint, --role, --trim, --merge, --retarget, --extract, ...");
         }
         run(*arguments, taken, outputs);
     });

@@ -88,6 +88,8 @@ public:
         values_ = floats_in(tree_, clip_.chunk, FourCC("KEYV"));
         times_ = floats_in(tree_, clip_.chunk, FourCC("TIME"));
         for (const TrackRecord& record : table_) sort_out(record);
+        decoded_ = map_.added;
+        is_rebuilt_ = is_rebuilt_ || !decoded_.empty();
         send_packed();
         send_plays();
         if (is_rebuilt_) {
@@ -322,7 +324,7 @@ private:
     std::size_t plays_ = 0;                    // number that remain
     std::map<const WeightMap*, std::vector<std::uint32_t>> targets_there_;  // for each target here, the one in the
                                                                             // other object
-    std::vector<UnpackedTrack> decoded_;
+    std::vector<UnpackedTrack> decoded_;                                    // and added ones
     std::vector<float> new_times_, new_values_;
     std::map<std::tuple<std::uint64_t, std::uint32_t, std::uint8_t, const WeightMap*>, std::uint64_t> laid_;
     std::uint64_t copied_ = 0;

@@ -3,6 +3,7 @@
 #include "rewrite.h"
 
 #include <bendy/format/document.h>
+#include <bendy/format/packed_clip.h>
 
 #include <cstdint>
 #include <span>
@@ -25,6 +26,7 @@ struct TrackMap {
     std::uint32_t joint_count = 0;      ///< of the destination object
     std::vector<bool> decoded;          ///< joints whose packed tracks become ordinary ones; empty: none
     std::vector<WeightMap> weights;     ///< by mesh
+    std::vector<UnpackedTrack> added;   ///< of joints or, for weights, meshes of the destination
 };
 
 struct TrackCounts {

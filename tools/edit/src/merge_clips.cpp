@@ -1,7 +1,7 @@
 #include <bendy/edit/edit.h>
 
 #include "clip_tracks.h"
-#include "renumber.h"
+#include "place_clips.h"
 #include "rewrite.h"
 
 #include <algorithm>
@@ -20,22 +20,6 @@
 
 namespace bendy::edit {
 namespace {
-
-/// For each of `there`, finds the one here with the same name; several of one name are paired in order. kNone: no
-/// match.
-std::vector<std::uint32_t> pair_names(std::span<const std::string_view> there, std::span<const std::string_view> here) {
-    std::map<std::string_view, std::vector<std::uint32_t>> by_name;
-    for (auto k = static_cast<std::uint32_t>(here.size()); k-- > 0;)
-        by_name[here[k]].push_back(k);  // in reverse, because the last one is taken first
-    std::vector<std::uint32_t> pairs(there.size(), kNone);
-    for (std::size_t k = 0; k < there.size(); ++k) {
-        const auto found = by_name.find(there[k]);
-        if (there[k].empty() || found == by_name.end() || found->second.empty()) continue;
-        pairs[k] = found->second.back();
-        found->second.pop_back();
-    }
-    return pairs;
-}
 
 /// For each joint there, finds the joint here with the same name. A name that only one joint has is enough. Among
 /// several, it is the one whose parent matches the parent; the others are paired in order if both sides have as many.
@@ -180,6 +164,12 @@ public:
     }
 
     [[nodiscard]] const TrackMap& map() const { return map_; }
+    /// For each mesh there, the one here.
+    [[nodiscard]] std::vector<std::uint32_t> meshes() const {
+        std::vector<std::uint32_t> meshes;
+        for (const WeightMap& weights : map_.weights) meshes.push_back(weights.mesh);
+        return meshes;
+    }
 
     /// Joints and meshes that the clips animate and that are missing here; joints whose rest poses differ.
     void warn(std::span<const bool> is_animated, Log& log) const {
@@ -251,7 +241,41 @@ public:
                                      "\" here? renaming fixes that)";
     }
 
+    /// Where the clips move joints: how many times as far from their parents these joints rest there.
+    struct Scale {
+        double times = 1.0;     ///< the median
+        std::size_t joint = 0;  ///< there, one of that scale
+    };
+    [[nodiscard]] Scale scale(std::span<const bool> is_moved) const {
+        std::vector<Scale> found;
+        for (std::size_t j = 0; j < map_.joints.size(); ++j) {
+            if (!is_moved[j] || map_.joints[j] == kNone) continue;
+            const double from = distance(there_.skeleton.joints[j].rest);
+            const double to = distance(here_.skeleton.joints[map_.joints[j]].rest);
+            if (from > 0.0 && to > 0.0) found.push_back({from / to, j});
+        }
+        if (found.empty()) return {};
+        const auto middle = found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2);
+        std::nth_element(found.begin(), middle, found.end(),
+                         [](const Scale& a, const Scale& b) { return a.times < b.times; });
+        return *middle;
+    }
+    /// Says "its joints rest 100 times as far apart as here".
+    [[nodiscard]] std::string describe_scale(const Scale& scale) const {
+        const JointView& joint = there_.skeleton.joints[scale.joint];
+        std::array<char, 128> text{};
+        std::snprintf(text.data(), text.size(), "\" rests %.3g from its parent there and %.3g here, ",
+                      distance(joint.rest), distance(here_.skeleton.joints[map_.joints[scale.joint]].rest));
+        const std::string lengths = text.data();
+        std::snprintf(text.data(), text.size(), "%.3g times as far", scale.times);
+        return "the skeletons differ in scale: \"" + std::string(joint.name) + lengths + text.data();
+    }
+
 private:
+    static double distance(const RestRecord& rest) {
+        return std::hypot(double{rest.translation[0]}, double{rest.translation[1]}, double{rest.translation[2]});
+    }
+
     void warn_of_rests(Log& log) const {
         RestDifference most;
         std::size_t differing = 0;
@@ -278,8 +302,16 @@ private:
     TrackMap map_;
 };
 
-std::span<const MaterialView> head_materials(const Source& source) {
-    return std::span(source.document.materials).first(source.document.global_materials);
+/// Marks the joints that the clips of an object move.
+void mark_moved(const ObjectView& object, std::span<bool> joints) {
+    for (const ClipView& clip : object.clips) {
+        for (const TrackView& track : clip.tracks) {
+            if (track.path == TrackPath::translation) joints[track.target] = true;
+        }
+        if (!clip.packed) continue;
+        for (std::uint32_t j = 0; j < clip.packed->record.joints; ++j)
+            joints[j] = joints[j] || clip.packed->animates(j, TrackPath::translation);
+    }
 }
 
 /// Marks what the clips of an object animate.
@@ -301,60 +333,22 @@ void mark_animated(const ObjectView& object, std::span<bool> joints, std::set<st
     }
 }
 
-/// Returns an unused name: "Run.001", as Blender does.
-std::string numbered(std::string_view name, const std::set<std::string, std::less<>>& taken, unsigned& last) {
-    std::string numbered;
-    do {
-        std::array<char, 16> digits{};
-        std::snprintf(digits.data(), digits.size(), ".%03u", ++last);
-        numbered = std::string(name) + digits.data();
-    } while (taken.contains(numbered));
-    return numbered;
-}
-
 class Merger {
 public:
-    Merger(const Source& here, const Source& there, const ObjectView& from, SameName same_name, Log& log)
-        : here_(here),
-          there_(there),
-          from_(from),
-          to_(here.document.objects.front()),
-          same_name_(same_name),
+    Merger(const ClipFiles& files, SameName same_name, Log& log)
+        : from_(files.from()),
           log_(log),
-          pairing_(from, to_),
-          rewrite_(here.tree),
-          sending_(there.tree) {
-        for (const ClipView& clip : to_.clips) {
-            taken_.emplace(clip.name);
-            places_.try_emplace(std::string(clip.name), clip.chunk);
-        }
-        meshes_.reserve(from.meshes.size());
-        for (const WeightMap& weights : pairing_.map().weights) meshes_.push_back(weights.mesh);
-        materials_ = pair_names(names_of(head_materials(there)), names_of(head_materials(here)));
-        textures_ = pair_names(names_of(there.document.textures), names_of(here.document.textures));
-        numbers_.of(Entity::joint) = pairing_.map().joints;
-        numbers_.of(Entity::mesh) = meshes_;
-        numbers_.of(Entity::material) = materials_;
-        numbers_.of(Entity::texture) = textures_;
-    }
+          pairing_(from_, files.to()),
+          placer_(files, pairing_.map().joints, pairing_.meshes(), same_name, log) {}
 
     Edited merge() {
+        if (const auto scaled = check_scale()) return *scaled;
         std::vector<std::size_t> useless;
         for (std::size_t k = 0; k < from_.clips.size(); ++k) {
             const ClipView& clip = from_.clips[k];
-            const auto counts = remap_tracks(there_.tree, from_, clip, pairing_.map(), sending_);
+            const auto counts = placer_.change(clip, pairing_.map());
             if (!counts) return counts.error();
-            renumber_leaves(
-                there_.tree, clip.chunk, numbers_, nullptr,
-                [this](std::uint32_t chunk, const Renumbered& now) {
-                    const std::string leaf = name_of_leaf(there_.tree, chunk);
-                    if (now.payload || now.lost.empty() || leaf.empty()) return;
-                    log_.warnings.push_back(leaf + " is left out: there is no " +
-                                            std::string(name_of(now.lost.back().entity)) + " of that name here");
-                },
-                sending_);
-            const bool has_more = has_references_left(there_.tree, clip.chunk, sending_);
-            if (counts->stay == 0 && counts->go != 0 && !has_more) {
+            if (counts->stay == 0 && counts->go != 0 && !placer_.has_more(clip)) {
                 useless.push_back(k);
                 continue;
             }
@@ -366,11 +360,28 @@ public:
                                     list_names(names_of(from_.clips), useless));
         }
         tell();
-        put_bound();
-        return finish(rewrite_);
+        return placer_.finish();
     }
 
 private:
+    /// A clip in other units is refused, one of a larger or smaller character is not.
+    [[nodiscard]] std::optional<Problem> check_scale() {
+        constexpr double kNoticeable = 1.1, kOtherUnits = 10.0;
+        const auto moved = std::make_unique<bool[]>(from_.skeleton.joints.size());
+        const std::span<bool> is_moved(moved.get(), from_.skeleton.joints.size());
+        mark_moved(from_, is_moved);
+        const Pairing::Scale scale = pairing_.scale(is_moved);
+        const double factor = std::max(scale.times, 1.0 / scale.times);
+        if (factor >= kOtherUnits)
+            return Problem{pairing_.describe_scale(scale) +
+                           "; export its clips in the units of this file or, of humans, retarget its clips instead"};
+        if (factor > kNoticeable) {
+            log_.warnings.push_back(pairing_.describe_scale(scale) +
+                                    "; retargeting fits clips to a character of another size");
+        }
+        return std::nullopt;
+    }
+
     void tell() {
         const auto animated = std::make_unique<bool[]>(from_.skeleton.joints.size());
         std::set<std::uint32_t> meshes;
@@ -409,41 +420,23 @@ private:
         if (missing.empty()) return {"its clips animate nothing in this file"};
         return {"its clips animate " + std::to_string(missing.size()) +
                 (missing.size() == 1 ? " joint, which is not here: " : " joints and none of them is here: ") +
-                list_names(names_of(from_.skeleton.joints), missing, 4) + pairing_.explain(missing.front())};
+                list_names(names_of(from_.skeleton.joints), missing, 4) + pairing_.explain(missing.front()) +
+                "; if both are humans, retarget its clips instead"};
     }
 
     Result<void, Problem> put_clip(const ClipView& clip, const TrackCounts& counts) {
-        std::string name(clip.name);
-        const bool is_taken = !name.empty() && taken_.contains(name);
-        if (is_taken && same_name_ == SameName::error) return Problem{"there is a clip \"" + name + "\" already"};
-        const auto place = places_.find(name);
-        const bool replaces = is_taken && same_name_ == SameName::replace && place != places_.end();
-        if (is_taken && !replaces) {
-            name = numbered(name, taken_, last_numbers_[name]);
-            sending_.replace(there_.tree.find(clip.chunk, FourCC("NAME")), as_byte_span(name));
-        }
-        if (!name.empty()) taken_.insert(name);
-        Buffer chunk = sending_.write(clip.chunk);
-        if (replaces) {
-            rewrite_.replace_whole(place->second, std::move(chunk));
-            places_.erase(place);  // a second clip of this name gets a place of its own
-        } else if (to_.clips.empty()) {
-            rewrite_.append(to_.chunk, std::move(chunk));
-        } else {
-            rewrite_.insert_after(to_.clips.back().chunk, std::move(chunk));
-        }
+        const auto placed = placer_.put(clip);
+        if (!placed) return placed.error();
         log_.done.push_back(
-            (replaces ? "replaced clip \"" : "merged clip \"") + name + "\": " + contents_of(clip, counts) +
-            (counts.go == 0 ? "" : ", " + std::to_string(counts.go) + " left out") +
+            (placed->replaces ? "replaced clip \"" : "merged clip \"") + placed->name + "\": " +
+            contents_of(clip, counts) + (counts.go == 0 ? "" : ", " + std::to_string(counts.go) + " left out") +
             (counts.decoded == 0 ? "" : ", " + std::to_string(counts.decoded) + " decoded, for another rest pose"));
         return {};
     }
 
     /// Returns "3 tracks, 1 curve": what is merged of a clip.
     [[nodiscard]] std::string contents_of(const ClipView& clip, const TrackCounts& counts) const {
-        std::size_t curves = 0;
-        for (const std::uint32_t child : there_.tree.children(clip.chunk))
-            curves += there_.tree[child].id == FourCC("CURV") && !sending_.is_removed(child) ? 1 : 0;
+        const std::size_t curves = placer_.curves(clip);
         const auto counted = [](std::size_t count, const char* what) {
             return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
         };
@@ -451,37 +444,10 @@ private:
         return (counts.stay == 0 ? "" : counted(counts.stay, "track") + ", ") + counted(curves, "curve");
     }
 
-    /// A file with a clip that is not exact is not exact.
-    void put_bound() {
-        const auto& theirs = there_.document.bound;
-        if (!theirs) return;
-        const std::uint32_t chunk = here_.tree.find(0, FourCC("BNDS"));
-        log_.warnings.emplace_back(
-            "its clips are encoded for size; the error that is stated was measured on its own skin");
-        if (chunk == kNone) {
-            BoundRecord bound = *theirs;
-            rewrite_.insert_after(here_.tree.find(0, FourCC("VERS")), whole_leaf(FourCC("BNDS"), bytes_of(bound)));
-            return;
-        }
-        BoundRecord bound = *here_.document.bound;
-        bound.max_error = std::max(bound.max_error, theirs->max_error);
-        bound.measured_error = std::max(bound.measured_error, theirs->measured_error);
-        rewrite_.overwrite(chunk, 0, bytes_of(bound));
-    }
-
-    const Source& here_;
-    const Source& there_;
     const ObjectView& from_;
-    const ObjectView& to_;
-    SameName same_name_;
     Log& log_;
     Pairing pairing_;
-    std::vector<std::uint32_t> meshes_, materials_, textures_;  // numbers here, by number there
-    NewNumbers numbers_;
-    Rewrite rewrite_, sending_;
-    std::set<std::string, std::less<>> taken_;
-    std::map<std::string, std::uint32_t, std::less<>> places_;  // of the existing clips, by name
-    std::map<std::string, unsigned, std::less<>> last_numbers_;
+    ClipPlacer placer_;
 };
 
 }  // namespace
@@ -494,18 +460,9 @@ Result<SameName, Problem> parse_same_name(std::string_view word) {
 }
 
 Edited merge_clips(Bytes file, Bytes other, SameName same_name, Log& log) {
-    const auto here = open_source(file);
-    if (!here) return here.error();
-    const auto there = open_source(other);
-    if (!there) return Problem{"the file to merge: " + there.error().message};
-    if (here->document.objects.empty()) return Problem{"there is no object that could have clips"};
-    const auto& objects = there->document.objects;
-    const auto has_clips = [](const ObjectView& object) { return !object.clips.empty(); };
-    const auto from = std::find_if(objects.begin(), objects.end(), has_clips);
-    if (from == objects.end()) return Problem{"the file to merge has no clips"};
-    if (std::any_of(std::next(from), objects.end(), has_clips))
-        log.warnings.emplace_back("only the clips of its first object that has some are merged");
-    return Merger(*here, *there, *from, same_name, log).merge();
+    const auto files = open_clip_files(file, other, log);
+    if (!files) return files.error();
+    return Merger(*files, same_name, log).merge();
 }
 
 }  // namespace bendy::edit

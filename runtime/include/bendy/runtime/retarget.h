@@ -89,8 +89,9 @@ struct Retargeted {
 /// work memory, so each thread needs one of its own (a copy will do).
 ///
 /// Joints with a role turn as those of the source do, also where the two have different numbers of joints in the spine
-/// or the neck. Joints and morph targets with equal names and no role come along, such as props and faces. All others
-/// keep their rest relative to their parent. Limbs keep the target's lengths; the hips' travel is scaled by the length
+/// or the neck. Joints with equal names and no role come along, such as props. So do morph targets with equal names, or
+/// with the same name in another spelling ("eyeBlinkLeft", "EyeBlink_L"); several may follow one. All others keep their
+/// rest relative to their parent. Limbs keep the target's lengths; the hips' travel is scaled by the length
 /// of the legs.
 class Retarget {
 public:

@@ -2,6 +2,7 @@
 
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/names.h>
+#include <bendy/format/packed_clip.h>
 #include <bendy/format/records.h>
 #include <bendy/format/result.h>
 
@@ -133,6 +134,29 @@ enum class SameName : std::uint8_t {
 Edited merge_clips(Bytes file, Bytes other, SameName same_name, Log& log);
 /// Parses "error", "replace" or "number".
 Result<SameName, Problem> parse_same_name(std::string_view word);
+
+/// Clips of another file's first object that has clips, as they come into this file's first object: some of their
+/// tracks as they are, others made for this file. For bendy::motion, which retargets clips.
+struct Transfer {
+    struct Weights {
+        std::uint32_t mesh = kNone;       ///< here; kNone: the mesh's weights tracks are left out
+        std::vector<std::uint32_t> from;  ///< for each morph target of that mesh, the one there; kNone: none
+    };
+    struct Clip {
+        std::size_t number = 0;                      ///< there
+        std::vector<bool> kept;                      ///< by joint there: its tracks go to the joint here as they are
+        std::vector<UnpackedTrack> tracks;           ///< added; `joint` is a joint here, for weights a mesh here
+        std::vector<std::vector<std::byte>> curves;  ///< added: payloads of CURV
+        std::string report;                          ///< for Log::done, after the clip's name
+    };
+    std::vector<std::uint32_t> joints;  ///< for each joint there, the one here; kNone: none
+    std::vector<Weights> weights;       ///< for each mesh there
+    std::vector<Clip> clips;
+};
+
+/// Appends these clips to those of this file. Their markers and all else that they have come along; curves and frames
+/// are assigned as by merge_clips, those of joints by Transfer::joints.
+Edited put_clips(Bytes file, Bytes other, const Transfer& transfer, SameName same_name, Log& log);
 
 /// Extracts a part of a character into a file of its own: the joint with this name (see find_named) and its
 /// descendants, their submeshes, the vertices that those use, their meshes' morph targets, the materials and textures

@@ -1,0 +1,295 @@
+#include <bendy/motion/retarget_clips.h>
+#include <bendy/runtime/constrain.h>
+#include <bendy/runtime/curve.h>
+#include <bendy/runtime/sample.h>
+
+#include "runtime/clip_model.h"
+#include "runtime/human_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bendy::motion::retarget_clips_test {
+namespace {
+
+using test::Buffer;
+using test::ClipSpec;
+using test::HumanModel;
+using test::HumanSpec;
+
+constexpr RetargetOptions kDirections{RestPoses::measured, false, false};
+
+/// A clip of a second in which every joint with a role swings about its own axes.
+ClipSpec swinging(const HumanModel& human, const std::string& name, double size = 0.5) {
+    ClipSpec clip{name};
+    std::mt19937 random(7);
+    std::normal_distribution<double> number;
+    for (std::uint32_t joint = 1; joint < human.spec.joints.size(); ++joint) {
+        const auto& rest = human.spec.joints[joint].rest.rotation;
+        test::TrackSpec track{TrackPath::rotation, joint, 4, {0.0f, 0.4f, 1.0f}, {}};
+        for (int key = 0; key < 3; ++key) {
+            const glm::dquat swing(1.0, size * number(random), size * number(random), size * number(random));
+            const glm::quat turned(glm::normalize(glm::dquat(rest[3], rest[0], rest[1], rest[2]) * swing));
+            for (const float part : {turned.x, turned.y, turned.z, turned.w}) track.values.push_back(part);
+        }
+        clip.tracks.push_back(track);
+    }
+    return clip;
+}
+
+/// Returns a file whose counts are right: the command reads nothing else.
+Buffer counted(const test::ModelSpec& spec) {
+    test::Node root = test::to_node(test::build_file(spec));
+    std::uint32_t clips = 0;
+    for (const test::Node& chunk : spec.more) clips += chunk.id == FourCC("CYCL") ? 1 : 0;
+    test::edit<VersionRecord>(test::at(root, "HEAD/VERS"), [&](VersionRecord& version) { version.clips = clips; });
+    return test::to_file(root);
+}
+
+Buffer file_of(const HumanModel& human, const std::vector<ClipSpec>& clips) {
+    test::ModelSpec spec = human.spec;
+    for (const ClipSpec& clip : clips) spec.more.push_back(test::clip_node(clip));
+    return counted(spec);
+}
+
+/// A human that swings.
+Buffer swinger(const HumanSpec& build = {}) {
+    const HumanModel human(build);
+    return file_of(human, {swinging(human, "Swing")});
+}
+
+Buffer retargeted(const Buffer& target, const Buffer& source, const RetargetClips& options, edit::Log& log) {
+    auto edited = retarget_clips(target, source, options, log);
+    EXPECT_TRUE(edited) << edited.error().message;
+    return edited ? *std::move(edited) : Buffer();
+}
+
+std::string problem_of(const Buffer& target, const Buffer& source, const RetargetClips& options = {}) {
+    edit::Log log;
+    const auto edited = retarget_clips(target, source, options, log);
+    return edited ? "" : edited.error().message;
+}
+
+/// Returns the bytes of the leaves that hold a clip's tracks.
+std::vector<Buffer> track_bytes(const Buffer& file, std::size_t clip) {
+    test::Node root = test::to_node(file);
+    std::vector<Buffer> bytes;
+    for (const char* leaf : {"TRAK", "TIME", "KEYV"})
+        bytes.push_back(test::at(root, "HEAD/OBJE/CYCL[" + std::to_string(clip) + "]/" + leaf).payload);
+    return bytes;
+}
+
+TEST(RetargetClips, ACharacterItselfKeepsItsTracksByteForByte) {
+    const Buffer file = swinger({.axes = 3});
+    edit::Log log;
+    const Buffer made = retargeted(file, file, {"Swing", {}, edit::SameName::number}, log);
+    const test::Owned model(made);
+    ASSERT_EQ(model->clips().size(), 2u);
+    EXPECT_EQ(model->clips()[1].name, "Swing.001");
+    EXPECT_EQ(track_bytes(made, 0), track_bytes(made, 1));
+    EXPECT_TRUE(log.warnings.empty());
+}
+
+TEST(RetargetClips, TracksSayWhatRetargetSays) {
+    const Buffer source = swinger();
+    for (const HumanSpec& build :
+         {HumanSpec{.arms_down = 60, .thigh = 0.3, .axes = 4}, HumanSpec{.facing = 90, .spine = 2, .axes = 5},
+          HumanSpec{.is_z_up = true, .spine = 1, .is_detached = true, .axes = 6}}) {
+        edit::Log log;
+        const test::Owned made(retargeted(counted(HumanModel(build).spec), source, {"", kDirections}, log));
+        const test::Owned there(source);
+        auto retarget = Retarget::make(*there, *made, kDirections);
+        ASSERT_TRUE(retarget);
+        Pose from(*there), wanted(*made), played(*made);
+        RetargetState state;
+        for (int k = 0; k <= 1000; ++k) {
+            const float seconds = static_cast<float>(k) / 1000.0f;
+            ASSERT_TRUE(sample(from, there->clip("Swing"), seconds));
+            ASSERT_TRUE(bendy::retarget(wanted, *retarget, from, state));
+            ASSERT_TRUE(sample(played, made->clip("Swing"), seconds));
+            for (std::size_t joint = 0; joint < made->joints().size(); ++joint) {
+                const glm::vec3 off(played.model_space()[joint][3] - wanted.model_space()[joint][3]);
+                EXPECT_LT(glm::length(off), 1e-3f) << made->joints()[joint].name << " at " << seconds;
+            }
+        }
+    }
+}
+
+TEST(RetargetClips, KeysThatLieBetweenTheOthersAreLeftOut) {
+    edit::Log log;
+    const HumanModel build(HumanSpec{.thigh = 0.3, .axes = 4});
+    const test::Owned made(retargeted(counted(build.spec), swinger(), {"", kDirections}, log));
+    const Clip& clip = *made->clip("Swing");
+    const auto elbow = std::find_if(clip.tracks.begin(), clip.tracks.end(), [&](const TrackView& track) {
+        return track.target == build.joint("leftForeArm") && track.path == TrackPath::rotation;
+    });
+    ASSERT_NE(elbow, clip.tracks.end());
+    EXPECT_LE(elbow->keys, 5u);  // of 3 in the source, and one in each 64 samples
+    EXPECT_GE(elbow->keys, 3u);
+}
+
+TEST(RetargetClips, StaysInsideLimitsAndSaysWhatGaveWay) {
+    ConstraintRecord bend;
+    bend.model = static_cast<std::uint8_t>(ConstraintModel::largest_angle);
+    bend.rotation_max = {0.3f, 0.0f, 0.0f};
+    const HumanModel build(HumanSpec{.axes = 3, .elbows = {bend}});
+    edit::Log log;
+    const test::Owned made(retargeted(counted(build.spec), swinger(), {}, log));
+    ASSERT_EQ(log.done.size(), 2u);
+    EXPECT_NE(log.done[1].find("limits acted in 121 of 121 frames"), std::string::npos) << log.done[1];
+    EXPECT_NE(log.done[1].find("ForeArm\" (largest angle, "), std::string::npos) << log.done[1];
+    Pose pose(*made);
+    for (int k = 0; k <= 100; ++k) {
+        ASSERT_TRUE(sample(pose, made->clip("Swing"), static_cast<float>(k) / 100.0f));
+        for (const Constraint& limit : made->constraints()) {
+            const glm::quat rest = made->joints()[limit.joint].rest.rotation;
+            EXPECT_LT(violation(limit, to_constraint_space(limit, rest, pose.local(limit.joint).rotation)), 2e-3);
+        }
+    }
+}
+
+TEST(RetargetClips, AJumpStaysAJump) {
+    const HumanModel human(HumanSpec{});
+    test::ModelSpec spec = human.spec;
+    test::Node clip = test::clip_node(swinging(human, "Jump"));
+    Buffer& tracks = test::child(clip, "TRAK").payload;
+    for (std::size_t at = 0; at < tracks.size(); at += sizeof(TrackRecord))
+        tracks[at + offsetof(TrackRecord, interpolation)] = static_cast<std::byte>(Interpolation::step);
+    spec.more.push_back(clip);
+    const Buffer source = counted(spec);
+    edit::Log log;
+    const HumanModel build(HumanSpec{.thigh = 0.3, .axes = 4});
+    const test::Owned made(retargeted(counted(build.spec), source, {"", kDirections}, log));
+    Pose before(*made), start(*made);
+    ASSERT_TRUE(sample(start, made->clip("Jump"), 0.0f));
+    ASSERT_TRUE(sample(before, made->clip("Jump"), 0.3999f));
+    const auto elbow = build.joint("leftForeArm");
+    EXPECT_GT(std::abs(glm::dot(before.local(elbow).rotation, start.local(elbow).rotation)), 1.0f - 1e-6f);
+}
+
+/// Stands, with the left foot lifted in the middle.
+Buffer stepper() {
+    const HumanModel human(HumanSpec{.axes = 0});
+    ClipSpec clip{"Step"};
+    const float half = 0.5f;
+    clip.tracks.push_back({TrackPath::rotation,
+                           human.joint("leftUpLeg"),
+                           4,
+                           {0, 0.5f, 1},
+                           {0, 0, 0, 1, -std::sin(half), 0, 0, std::cos(half), 0, 0, 0, 1}});
+    return file_of(human, {clip});
+}
+
+TEST(RetargetClips, FeetAreOnTheGroundByCurvesThatCanBeEdited) {
+    const Buffer target = counted(HumanModel(HumanSpec{.thigh = 0.3, .axes = 2}).spec);
+    edit::Log log;
+    const Buffer made = retargeted(target, stepper(), {}, log);
+    const test::Owned model(made);
+    const Clip& clip = *model->clip("Step");
+    ASSERT_EQ(clip.curves.size(), 4u);
+    float weight = -1.0f;
+    ASSERT_TRUE(sample_curve(*find_curve(clip, "left_heel_contact"), 0.0, std::span(&weight, 1)));
+    EXPECT_EQ(weight, 1.0f);
+    ASSERT_TRUE(sample_curve(*find_curve(clip, "left_heel_contact"), 0.5, std::span(&weight, 1)));
+    EXPECT_NEAR(weight, 0.0f, kMostWeight);
+    ASSERT_TRUE(sample_curve(*find_curve(clip, "right_heel_contact"), 0.5, std::span(&weight, 1)));
+    EXPECT_EQ(weight, 1.0f);
+    // The clip has curves now, which decide and come along.
+    edit::Log other;
+    const test::Owned again(retargeted(counted(HumanModel(HumanSpec{.axes = 5}).spec), made, {}, other));
+    EXPECT_EQ(again->clip("Step")->curves.size(), 4u);
+    EXPECT_NE(other.done[1].find("feet by its contact curves"), std::string::npos) << other.done[1];
+}
+
+test::MeshSpec face(const std::string& name, const std::vector<std::string>& targets) {
+    test::MeshSpec mesh;
+    mesh.joint = 0;
+    mesh.positions = {{0, 0, 0}};
+    mesh.more.push_back(test::make_leaf(FourCC("NAME"), std::as_bytes(std::span(name))));
+    for (const std::string& target : targets) {
+        mesh.more.push_back(test::make_container(
+            FourCC("TARG"), {test::make_leaf(FourCC("NAME"), std::as_bytes(std::span(target))),
+                             test::make_leaf(FourCC("TINF"), bytes_of(MorphTargetRecord{})),
+                             test::make_leaf(FourCC("POSI"), test::stream_payload<float>(3, {0, 1, 0}))}));
+    }
+    return mesh;
+}
+
+TEST(RetargetClips, FacesFollowByNamesInAnySpelling) {
+    const HumanModel human(HumanSpec{});
+    test::ModelSpec spec = human.spec;
+    spec.meshes = {face("Face", {"eyeBlinkLeft", "jawOpen", "ownName"})};
+    ClipSpec clip{"Talk"};
+    clip.tracks = {{TrackPath::weights, 0, 3, {0, 1}, {0, 0.5f, 0, 1, 0.25f, 1}}};
+    spec.more.push_back(test::clip_node(clip));
+    const auto played = [&](std::vector<test::MeshSpec> meshes, edit::Log& log) {
+        test::ModelSpec target = HumanModel(HumanSpec{.axes = 4}).spec;
+        target.meshes = std::move(meshes);
+        const test::Owned made(retargeted(counted(target), counted(spec), {}, log));
+        Pose pose(*made);
+        EXPECT_TRUE(sample(pose, made->clip("Talk"), 0.5f));
+        return std::vector<float>(pose.morph_weights().begin(), pose.morph_weights().end());
+    };
+    edit::Log one, two;
+    EXPECT_EQ(played({face("Head", {"Head.JawOpen", "EyeBlink_L"})}, one), (std::vector{0.375f, 0.5f}));
+    ASSERT_FALSE(one.warnings.empty());
+    EXPECT_EQ(one.warnings.back(), "there are no morph targets here for the weights of \"ownName\"");
+    EXPECT_EQ(played({face("Skin", {"jaw open"}), face("Teeth", {"none", "jaw.open"})}, two),
+              (std::vector{0.375f, 0.0f, 0.375f}));
+}
+
+TEST(RetargetClips, ALongClipOfFewKeysTakesFewSamples) {
+    const HumanModel human(HumanSpec{});
+    ClipSpec clip = swinging(human, "Long");
+    clip.end = 1e6f;
+    for (auto& track : clip.tracks) track.times = {0.0f, 4e5f, 1e6f};
+    edit::Log log;
+    const test::Owned made(retargeted(counted(HumanModel(HumanSpec{.axes = 4}).spec), file_of(human, {clip}), {}, log));
+    for (const TrackView& track : made->clip("Long")->tracks) EXPECT_LT(track.keys, 1200u);
+}
+
+TEST(RetargetClips, ClipsWithoutACounterpartAreLeftOut) {
+    const HumanModel human(HumanSpec{});
+    ClipSpec sword{"Sword"};
+    sword.tracks = {{TrackPath::translation, human.joint("sword"), 3, {0, 1}, {0, 0, 0, 1, 0, 0}}};
+    test::ModelSpec other = HumanModel(HumanSpec{.axes = 4}).spec;
+    for (test::JointSpec& joint : other.joints) joint.name = "own " + joint.name;
+    const Buffer target = counted(other);
+    EXPECT_EQ(problem_of(target, file_of(human, {sword})),
+              "its clips animate no joint that has a role or a joint of the same name here: \"Sword\"");
+    edit::Log log;
+    const Buffer source = file_of(human, {sword, swinging(human, "Swing")});
+    EXPECT_EQ(test::Owned(retargeted(target, source, {}, log))->clips().size(), 1u);
+    ASSERT_EQ(log.warnings.size(), 2u);
+    EXPECT_EQ(log.warnings[0], "clips that animate nothing in this file are left out: \"Sword\"");
+    EXPECT_EQ(log.warnings[1], "nothing here follows 1 joint: \"sword\"");
+}
+
+TEST(RetargetClips, SaysWhatIsMissing) {
+    const Buffer human = counted(HumanModel(HumanSpec{}).spec);
+    const Buffer source = swinger();
+    EXPECT_EQ(problem_of(human, human), "the source has no clips");
+    EXPECT_EQ(problem_of(human, source, {"Swim"}),
+              "there is no clip \"Swim\"; did you mean \"Swing\"? There is \"Swing\"");
+    EXPECT_EQ(problem_of(source, source), "there is a clip \"Swing\" already");
+    const std::string nobody = problem_of(counted(HumanModel(HumanSpec{.has_roles = false}).spec), source);
+    EXPECT_TRUE(nobody.starts_with("the target does not say what its joints are: ")) << nobody;
+    EXPECT_NE(nobody.find("28 joints: \"root\", \"hips\", "), std::string::npos) << nobody;
+    test::ModelSpec half = HumanModel(HumanSpec{}).spec;
+    half.more.back().payload.resize(20 * sizeof(RoleRecord));
+    const std::string missing = problem_of(counted(half), source);
+    EXPECT_TRUE(missing.starts_with("the target has no joint for ")) << missing;
+    EXPECT_NE(missing.find("{\"bendy_rig\": 1, \"roles\": {\"left_foot\": \"NAME\"}}"), std::string::npos) << missing;
+    EXPECT_NE(problem_of(human, Buffer(64)), "");
+}
+
+}  // namespace
+}  // namespace bendy::motion::retarget_clips_test

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <bendy/edit/edit.h>
+#include <bendy/format/byte_reader.h>
+#include <bendy/runtime/retarget.h>
+
+#include <string>
+
+// Clips of one character on another one, from file to file.
+namespace bendy::motion {
+
+struct RetargetClips {
+    std::string clip{};  ///< which of the other file's clips: see edit::find_named; empty: all of them
+    RetargetOptions retarget{};
+    edit::SameName same_name = edit::SameName::error;
+};
+
+/// Appends clips of another file's character to this file's first object, retargeted (bendy/runtime/retarget.h). Both
+/// need roles. Everything that a clip has comes along: its markers, its named curves, its weights of morph targets.
+///
+/// Joints whose numbers are the source's in every frame keep its tracks, byte for byte; the others have linear tracks
+/// with as few keys as keep every rotation within kMostTurned and every translation within kMostMoved of the legs'
+/// length. How far joints are from where Retarget has them, also between the keys, is measured and reported.
+///
+/// How firmly heels and toes stand comes with the clip as the curves left_heel_contact, left_toes_contact,
+/// right_heel_contact and right_toes_contact, from 0 in the air to 1 on the ground. Where the source's clip has one of
+/// them, they are taken from it and are not looked for.
+///
+/// A clip that animates nothing that has a counterpart is left out with a warning. A problem, if none is left: no
+/// clips, no clip of that name, a character that is no human or lacks a role, a name that exists already, numbers that
+/// are not finite.
+edit::Edited retarget_clips(Bytes file, Bytes other, const RetargetClips& options, edit::Log& log);
+
+inline constexpr double kMostTurned = 0.0002;  ///< radians
+inline constexpr double kMostMoved = 0.0001;   ///< of the length of the legs
+inline constexpr double kMostWeight = 0.002;   ///< of a morph target, of a contact, of a scale
+
+}  // namespace bendy::motion

@@ -1,0 +1,371 @@
+#include "follow.h"
+
+#include "linear_keys.h"
+#include "sample_times.h"
+
+#include <bendy/motion/retarget_clips.h>
+#include <bendy/runtime/curve.h>
+#include <bendy/runtime/sample.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace bendy::motion {
+namespace {
+
+/// Numbers of a clip's samples, all joints together: bounds the memory for long clips.
+constexpr std::size_t kMostNumbers = 40'000'000;
+constexpr std::size_t kNumbers = 10;  // of a joint
+constexpr double kStretched = 0.01;   // of a joint's distance from its parent, and of its scale
+
+bool are_same(const JointTransform& a, const JointTransform& b) {
+    return a.rotation == b.rotation && a.translation == b.translation && a.scale == b.scale;
+}
+
+/// Returns how many metres a number of a translation is, at most.
+double unit_of(const glm::mat4& matrix) {
+    double most = 1e-9;
+    for (int axis = 0; axis < 3; ++axis) most = std::max(most, double{glm::length(glm::vec3(matrix[axis]))});
+    return most;
+}
+
+/// The joints' numbers in one sample.
+using Frame = std::vector<JointTransform>;
+
+Frame frame_of(const Pose& pose) {
+    Frame frame;
+    const auto joints = static_cast<std::uint32_t>(pose.model().joints().size());
+    frame.reserve(joints);
+    for (std::uint32_t joint = 0; joint < joints; ++joint) frame.push_back(pose.local(joint));
+    return frame;
+}
+
+std::array<const Curve*, kContacts> contact_curves(const Clip& clip) {
+    std::array<const Curve*, kContacts> curves{};
+    for (std::size_t k = 0; k < kContacts; ++k) {
+        curves[k] = find_curve(clip, kContactNames[k]);
+        if (curves[k] != nullptr && curves[k]->components != 1) curves[k] = nullptr;
+    }
+    return curves;
+}
+
+class Following {
+public:
+    Following(Retarget& retarget, const Clip& clip)
+        : retarget_(retarget),
+          clip_(clip),
+          source_(retarget.source()),
+          target_(retarget.target()),
+          curves_(contact_curves(clip)) {
+        result_.kept.resize(retarget.source().joints().size());
+        result_.moves.resize(result_.kept.size());
+        result_.stretches.resize(result_.kept.size());
+        result_.has_contacts = std::any_of(curves_.begin(), curves_.end(), [](const Curve* c) { return c != nullptr; });
+    }
+
+    std::optional<Followed> run(const std::vector<std::uint32_t>& sampled_meshes) {
+        const std::size_t numbers = kNumbers * target_.model().joints().size() + target_.morph_weights().size() + 1;
+        times_ = sample_times(clip_, std::max<std::size_t>(2, kMostNumbers / numbers));
+        find_kept();
+        if (!play()) return std::nullopt;
+        make_tracks(sampled_meshes);
+        make_contacts();
+        measure();
+        return std::move(result_);
+    }
+
+private:
+    /// Joints that may have the source's numbers: where rests are the same, and no other joint has them.
+    void find_kept() {
+        const Model& from = retarget_.source();
+        const Model& to = retarget_.target();
+        source_of_.assign(to.joints().size(), kNone);
+        std::vector<bool> is_taken(from.joints().size());
+        for (std::uint32_t joint = 0; joint < source_of_.size(); ++joint) {
+            const std::uint32_t source = retarget_.joints()[joint];
+            if (source == kNone || is_taken[source]) continue;
+            if (!are_same(from.joints()[source].rest, to.joints()[joint].rest)) continue;
+            is_taken[source] = true;
+            source_of_[joint] = source;
+        }
+    }
+
+    /// Every second sample is a frame; those between them are only compared.
+    bool play() {
+        const bool loops = ends_as_it_begins();
+        RetargetState state;
+        for (std::size_t k = 0; loops && k < times_.size(); ++k) {
+            if (!step(times_[k], state)) return false;
+        }
+        for (std::size_t k = 0; k < times_.size(); ++k) {
+            if (!record(times_[k], state)) return false;
+            if (k + 1 < times_.size() && !compare_later(0.5f * (times_[k] + times_[k + 1]), state)) return false;
+        }
+        return true;
+    }
+
+    /// Then feet stand at the beginning as at the end, where they have come from.
+    bool ends_as_it_begins() {
+        constexpr double kSame = 0.01;  // of a rotation's numbers
+        if (clip_.loop || !sample(source_, &clip_, clip_.start)) return clip_.loop;
+        const Frame first = frame_of(source_);
+        if (!sample(source_, &clip_, clip_.end)) return false;
+        for (std::uint32_t joint = 0; joint < first.size(); ++joint) {
+            const glm::quat& a = first[joint].rotation;
+            if (1.0 - std::abs(glm::dot(a, source_.local(joint).rotation)) > kSame * kSame) return false;
+        }
+        return clip_.end > clip_.start;
+    }
+
+    std::optional<Retargeted> step(float seconds, RetargetState& state) {
+        if (!sample(source_, &clip_, seconds)) return std::nullopt;
+        std::optional<ContactWeights> contacts;
+        if (result_.has_contacts) {
+            contacts.emplace();
+            for (std::size_t k = 0; k < kContacts; ++k) {
+                if (curves_[k] != nullptr) (void)sample_curve(*curves_[k], seconds, std::span(&(*contacts)[k], 1));
+            }
+        }
+        const auto done = bendy::retarget(target_, retarget_, source_, state, contacts);
+        if (!done) return std::nullopt;
+        return *done;
+    }
+
+    bool record(float seconds, RetargetState& state) {
+        const auto done = step(seconds, state);
+        if (!done) return false;
+        note(*done, seconds);
+        const bool is_first = frames_.empty();
+        frames_.push_back(frame_of(target_));
+        note_source(is_first, frames_.back());
+        note_kept(frames_.back());
+        weights_.emplace_back(target_.morph_weights().begin(), target_.morph_weights().end());
+        contacts_.push_back(done->contacts);
+        return true;
+    }
+
+    bool compare_later(float seconds, RetargetState& state) {
+        if (!step(seconds, state)) return false;
+        between_.push_back(frame_of(target_));
+        note_kept(between_.back());
+        return true;
+    }
+
+    void note(const Retargeted& done, float seconds) {
+        ++result_.frames;
+        if (done.turned > kMostTurned) {
+            ++result_.limited;
+            Held& held = result_.held[done.turned_joint];
+            if (done.turned > held.angle) held = {done.turned, seconds};
+        }
+        if (done.missed > result_.missed) {
+            result_.missed = done.missed;
+            result_.missed_at = seconds;
+            result_.missed_joint = done.missed_joint;
+        }
+        result_.lowered = std::max(result_.lowered, done.lowered);
+    }
+
+    void note_source(bool is_first, const Frame& frame) {
+        const Frame now = frame_of(source_);
+        if (is_first) first_ = now;
+        for (std::uint32_t joint = 0; joint < now.size(); ++joint) {
+            if (!are_same(now[joint], first_[joint])) result_.moves[joint] = true;
+        }
+        const auto to = target_.model().joints();
+        for (std::uint32_t joint = 0; joint < frame.size(); ++joint) {
+            const std::uint32_t from = retarget_.joints()[joint];
+            const bool is_as_long =
+                frame[joint].translation == to[joint].rest.translation && frame[joint].scale == to[joint].rest.scale;
+            if (from != kNone && is_as_long && is_stretched(now[from], source_.model().joints()[from].rest))
+                result_.stretches[from] = true;
+        }
+    }
+
+    static bool is_stretched(const JointTransform& now, const JointTransform& rest) {
+        return glm::length(now.translation - rest.translation) > kStretched * glm::length(rest.translation) ||
+               glm::length(now.scale - rest.scale) > kStretched * glm::length(rest.scale);
+    }
+
+    void note_kept(const Frame& frame) {
+        for (std::uint32_t joint = 0; joint < frame.size(); ++joint) {
+            std::uint32_t& from = source_of_[joint];
+            if (from != kNone && !are_same(frame[joint], source_.local(from))) from = kNone;
+        }
+    }
+
+    void make_tracks(const std::vector<std::uint32_t>& sampled_meshes) {
+        const auto joints = target_.model().joints();
+        const double moved = kMostMoved * leg();
+        target_.set_rest();
+        const std::vector<glm::mat4> rests(target_.model_space().begin(), target_.model_space().end());
+        for (std::uint32_t joint = 0; joint < joints.size(); ++joint) {
+            if (source_of_[joint] != kNone) {
+                result_.kept[source_of_[joint]] = true;
+                continue;
+            }
+            const JointTransform& rest = joints[joint].rest;
+            const glm::quat& turned = rest.rotation;
+            add_track(joint, TrackPath::rotation, std::array{turned.x, turned.y, turned.z, turned.w}, kMostTurned,
+                      [&](const JointTransform& now) {
+                          const glm::quat& q = now.rotation;
+                          return std::array{q.x, q.y, q.z, q.w};
+                      });
+            const auto three = [](const glm::vec3& v) { return std::array{v.x, v.y, v.z}; };
+            const double unit = joints[joint].parent == kNone ? 1.0 : unit_of(rests[joints[joint].parent]);
+            add_track(joint, TrackPath::translation, three(rest.translation), moved / unit,
+                      [&](const JointTransform& now) { return three(now.translation); });
+            add_track(joint, TrackPath::scale, three(rest.scale), kMostWeight,
+                      [&](const JointTransform& now) { return three(now.scale); });
+        }
+        for (const std::uint32_t mesh : sampled_meshes) add_weights(mesh);
+    }
+
+    template <std::size_t N, class Get>
+    void add_track(std::uint32_t joint, TrackPath path, const std::array<float, N>& rest, double bound,
+                   const Get& get) {
+        Samples samples{N, path == TrackPath::rotation, {}};
+        for (const Frame& frame : frames_) {
+            const std::array<float, N> value = get(frame[joint]);
+            samples.values.insert(samples.values.end(), value.begin(), value.end());
+        }
+        add_keys(joint, path, samples, rest, bound);
+    }
+
+    void add_weights(std::uint32_t mesh) {
+        const Model& model = target_.model();
+        const std::size_t count = model.meshes()[mesh].targets.size();
+        Samples samples{count, false, {}};
+        for (const std::vector<float>& all : weights_) {
+            const auto begin = all.begin() + model.first_morph_target(mesh);
+            samples.values.insert(samples.values.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+        }
+        std::vector<float> rest;
+        for (const MorphTargetView& target : model.meshes()[mesh].targets) rest.push_back(target.rest_weight);
+        add_keys(mesh, TrackPath::weights, samples, rest, kMostWeight);
+    }
+
+    void add_keys(std::uint32_t target, TrackPath path, Samples& samples, std::span<const float> rest, double bound) {
+        const std::vector<std::size_t> keys = linear_keys(samples, times_, bound);
+        if (keys.size() == 1) {
+            Samples both{samples.components, samples.is_rotation, {rest.begin(), rest.end()}};
+            both.values.insert(both.values.end(), samples.values.begin(),
+                               samples.values.begin() + static_cast<std::ptrdiff_t>(samples.components));
+            constexpr std::array kTimes{0.0f, 1.0f};
+            if (linear_keys(both, kTimes, bound).size() == 1) return;  // at rest
+        }
+        UnpackedTrack track;
+        track.path = path;
+        track.joint = target;
+        track.components = static_cast<std::uint32_t>(samples.components);
+        for (const std::size_t key : keys) {
+            track.times.push_back(times_[key]);
+            track.values.insert(track.values.end(), samples.at(key).begin(), samples.at(key).end());
+        }
+        result_.tracks.push_back(std::move(track));
+    }
+
+    void make_contacts() {
+        if (result_.has_contacts) return;
+        for (std::size_t k = 0; k < kContacts; ++k) {
+            Samples samples{1, false, {}};
+            for (const ContactWeights& weights : contacts_) samples.values.push_back(weights[k]);
+            if (std::all_of(samples.values.begin(), samples.values.end(), [](float weight) { return weight == 0.0f; }))
+                continue;
+            ContactCurve curve{k, {}, {}};
+            for (const std::size_t key : linear_keys(samples, times_, kMostWeight)) {
+                curve.times.push_back(times_[key]);
+                curve.values.push_back(samples.values[key]);
+            }
+            result_.contacts.push_back(std::move(curve));
+        }
+    }
+
+    /// The length of the target's legs, metres.
+    [[nodiscard]] double leg() {
+        target_.set_rest();
+        const auto places = target_.model_space();
+        double length = 0.0;
+        constexpr std::array kLeg{Role::left_upper_leg, Role::left_lower_leg, Role::left_foot};
+        std::array<std::uint32_t, kLeg.size()> joints{};
+        for (const JointRole& one : target_.model().roles()) {
+            for (std::size_t k = 0; k < kLeg.size(); ++k) {
+                if (static_cast<Role>(one.role) == kLeg[k]) joints[k] = one.joint;
+            }
+        }
+        for (std::size_t k = 0; k + 1 < joints.size(); ++k)
+            length += glm::length(glm::vec3(places[joints[k + 1]][3] - places[joints[k]][3]));
+        return length;
+    }
+
+    /// Compares what the tracks say with what Retarget has said.
+    void measure() {
+        Pose made(target_.model());
+        for (std::size_t k = 0; k < frames_.size(); ++k) {
+            compare(made, times_[k], frames_[k]);
+            if (k < between_.size()) compare(made, 0.5f * (times_[k] + times_[k + 1]), between_[k]);
+        }
+    }
+
+    void compare(Pose& made, float seconds, const Frame& wanted) {
+        made.set_rest();
+        for (std::uint32_t joint = 0; joint < wanted.size(); ++joint) {
+            if (source_of_[joint] != kNone) made.set_local(joint, wanted[joint]);
+            target_.set_local(joint, wanted[joint]);
+        }
+        for (const UnpackedTrack& track : result_.tracks) {
+            if (track.path != TrackPath::weights) set_from(made, track, seconds);
+        }
+        const auto a = made.model_space();
+        const auto b = target_.model_space();
+        double error = 0.0;
+        for (std::size_t joint = 0; joint < a.size(); ++joint)
+            error = std::max(error, double{glm::length(glm::vec3(a[joint][3] - b[joint][3]))});
+        result_.mean_error += error / static_cast<double>(frames_.size() + between_.size());
+        if (error <= result_.error) return;
+        result_.error = error;
+        result_.error_at = seconds;
+    }
+
+    void set_from(Pose& pose, const UnpackedTrack& track, float seconds) const {
+        TrackView view;
+        view.path = track.path;
+        view.target = track.joint;
+        view.components = track.components;
+        view.keys = static_cast<std::uint32_t>(track.times.size());
+        view.times = track.times;
+        view.values = track.values;
+        std::array<float, 4> value{};
+        sample_track(view, clip_, seconds, value);
+        JointTransform local = pose.local(track.joint);
+        if (track.path == TrackPath::rotation) local.rotation = glm::quat(value[3], value[0], value[1], value[2]);
+        if (track.path == TrackPath::translation) local.translation = {value[0], value[1], value[2]};
+        if (track.path == TrackPath::scale) local.scale = {value[0], value[1], value[2]};
+        pose.set_local(track.joint, local);
+    }
+
+    Retarget& retarget_;
+    const Clip& clip_;
+    Pose source_, target_;
+    std::array<const Curve*, kContacts> curves_;
+    std::vector<float> times_;
+    std::vector<Frame> frames_, between_;
+    Frame first_;  // of the source
+    std::vector<std::vector<float>> weights_;
+    std::vector<ContactWeights> contacts_;
+    std::vector<std::uint32_t> source_of_;  // by joint of the target: the source's joint that has the same numbers
+    Followed result_;
+};
+
+}  // namespace
+
+std::optional<Followed> follow(Retarget& retarget, const Clip& clip, const std::vector<std::uint32_t>& sampled_meshes) {
+    return Following(retarget, clip).run(sampled_meshes);
+}
+
+}  // namespace bendy::motion

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <bendy/format/packed_clip.h>
+#include <bendy/runtime/model.h>
+#include <bendy/runtime/retarget.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace bendy::motion {
+
+/// A curve of contact, by its number in ContactWeights.
+struct ContactCurve {
+    std::size_t contact = 0;
+    std::vector<float> times, values;
+};
+
+/// What a limit did to a joint in a clip.
+struct Held {
+    double angle = 0.0;  ///< radians, most
+    float seconds = 0.0f;
+};
+
+/// A clip as it is on the target.
+struct Followed {
+    std::vector<bool> kept;             ///< by joint of the source: the target's has its numbers in every frame
+    std::vector<UnpackedTrack> tracks;  ///< of all that is not kept and not at rest
+    std::vector<ContactCurve> contacts;
+    bool has_contacts = false;    ///< they came with the clip
+    std::vector<bool> moves;      ///< by joint of the source: it turns or moves at all
+    std::vector<bool> stretches;  ///< it changes its length or its scale, and the target's does not
+
+    std::size_t frames = 0, limited = 0;    ///< limited: frames in which a limit acted
+    std::map<std::uint32_t, Held> held;     ///< by joint of the target; each frame counts for its worst joint
+    float missed = 0.0f, missed_at = 0.0f;  ///< metres, seconds: see Retargeted
+    std::uint32_t missed_joint = kNone;
+    float lowered = 0.0f;
+    /// Metres: how far the joint that is farthest off is from where Retarget has it, at the frames and between them.
+    double error = 0.0, mean_error = 0.0;
+    float error_at = 0.0f;  ///< seconds
+};
+
+/// Plays the clip on the target. Nothing, if a number is not finite.
+/// \param sampled_meshes  meshes of the target whose weights become tracks
+std::optional<Followed> follow(Retarget& retarget, const Clip& clip, const std::vector<std::uint32_t>& sampled_meshes);
+
+inline constexpr const char* kContactNames[kContacts] = {"left_heel_contact", "left_toes_contact", "right_heel_contact",
+                                                         "right_toes_contact"};
+
+}  // namespace bendy::motion

@@ -1,0 +1,337 @@
+#include <bendy/motion/retarget_clips.h>
+
+#include "follow.h"
+
+#include <bendy/format/curve.h>
+#include <bendy/format/diagnostics.h>
+#include <bendy/format/names.h>
+#include <bendy/runtime/model.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace bendy::motion {
+namespace {
+
+using edit::Log;
+using edit::Problem;
+using edit::Transfer;
+
+template <class Things>
+std::vector<std::string_view> names_of(const Things& things) {
+    std::vector<std::string_view> names;
+    names.reserve(things.size());
+    for (const auto& thing : things) names.push_back(thing.name);
+    return names;
+}
+
+/// printf for one number.
+std::string with(const char* format, double number) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), format, number);
+    return text.data();
+}
+
+std::string counted(std::size_t count, const std::string& what) {
+    return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+}
+
+std::string quoted(std::string_view name, std::size_t number) {
+    return name.empty() ? "#" + std::to_string(number) : '"' + std::string(name) + '"';
+}
+
+std::string millimetres(double metres) {
+    return with(metres < 0.1 ? "%.2g mm" : "%.0f mm", metres * 1e3);
+}
+
+std::string degrees(double radians) {
+    return with("%.2g degrees", radians * 180.0 / std::numbers::pi);
+}
+
+/// Opens the object that the clips are of, or the first one.
+Result<Model, Problem> open_model(Bytes file, bool needs_clips, const char* what) {
+    std::optional<Model> first;
+    for (std::uint32_t object = 0;; ++object) {
+        auto model = Model::from_memory(file, {object});
+        if (!model && first) return *first;
+        if (!model) return Problem{std::string(what) + " cannot be opened: " + describe(model.error())};
+        if (!needs_clips || !model->clips().empty()) return *std::move(model);
+        if (!first) first = *model;
+    }
+}
+
+/// Says why two characters cannot be retargeted, what was found and what to write.
+Problem explain(const RetargetError& error, const Model& source, const Model& target) {
+    const Model& model = error.is_source ? source : target;
+    std::vector<std::size_t> numbers(model.joints().size());
+    for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = k;
+    std::string text = error_text(error);
+    if (error.reason == RetargetError::Reason::no_size) return {text + ": is there no rest pose?"};
+    text +=
+        " (it has " + counted(numbers.size(), "joint") + ": " + list_names(names_of(model.joints()), numbers, 6) + ")";
+    const Role example = error.missing.empty() ? Role::hips : error.missing.front();
+    return {text + ", as in {\"bendy_rig\": 1, \"roles\": {\"" +
+            std::string(kValueNames<Role>[static_cast<std::size_t>(example)]) + "\": \"NAME\"}}"};
+}
+
+class ClipRetargeting {
+public:
+    ClipRetargeting(Retarget retarget, const RetargetClips& options, Log& log)
+        : retarget_(std::move(retarget)),
+          source_(retarget_.source()),
+          target_(retarget_.target()),
+          options_(options),
+          log_(log) {
+        lost_.resize(source_.joints().size());
+        stretched_.resize(source_.joints().size());
+        pair_joints();
+        pair_weights();
+    }
+
+    Result<Transfer, Problem> run(const std::vector<std::size_t>& clips) {
+        std::vector<std::size_t> useless;
+        for (const std::size_t number : clips) {
+            const Clip& clip = source_.clips()[number];
+            if (!has_counterpart(clip)) {
+                useless.push_back(number);
+                continue;
+            }
+            auto followed = follow(retarget_, clip, sampled_);
+            if (!followed) return Problem{"clip " + quoted(clip.name, number) + " has numbers that are not finite"};
+            put(number, *std::move(followed));
+        }
+        const std::string names = list_names(names_of(source_.clips()), useless);
+        if (transfer_.clips.empty())
+            return Problem{"its clips animate no joint that has a role or a joint of the same name here: " + names};
+        if (!useless.empty()) log_.warnings.push_back("clips that animate nothing in this file are left out: " + names);
+        warn();
+        return std::move(transfer_);
+    }
+
+private:
+    void pair_joints() {
+        transfer_.joints.assign(source_.joints().size(), kNone);
+        has_role_.resize(source_.joints().size());
+        for (const JointRole& role : source_.roles()) has_role_[role.joint] = true;
+        for (std::uint32_t joint = 0; joint < retarget_.joints().size(); ++joint) {
+            const std::uint32_t from = retarget_.joints()[joint];
+            if (from != kNone && transfer_.joints[from] == kNone) transfer_.joints[from] = joint;
+        }
+    }
+
+    /// A mesh whose targets all follow those of one mesh there, which no other mesh follows, gets its tracks as they
+    /// are; others get sampled ones.
+    void pair_weights() {
+        transfer_.weights.resize(source_.meshes().size());
+        std::vector<std::set<std::uint32_t>> meshes_of(target_.meshes().size());
+        std::vector<std::size_t> followers(source_.meshes().size());
+        for (std::uint32_t mesh = 0; mesh < target_.meshes().size(); ++mesh) {
+            for (const std::uint32_t from : targets_of(mesh)) {
+                if (from != kNone && meshes_of[mesh].insert(mesh_of(from)).second) ++followers[mesh_of(from)];
+            }
+        }
+        for (std::uint32_t mesh = 0; mesh < target_.meshes().size(); ++mesh) {
+            if (meshes_of[mesh].empty()) continue;
+            const std::uint32_t there = *meshes_of[mesh].begin();
+            if (meshes_of[mesh].size() > 1 || followers[there] > 1) {
+                sampled_.push_back(mesh);
+                continue;
+            }
+            std::vector<std::uint32_t> from = targets_of(mesh);
+            for (std::uint32_t& target : from) target -= target == kNone ? 0 : source_.first_morph_target(there);
+            transfer_.weights[there] = {mesh, std::move(from)};
+        }
+    }
+
+    /// The source's morph target for each of the mesh's.
+    [[nodiscard]] std::vector<std::uint32_t> targets_of(std::uint32_t mesh) const {
+        const auto all = retarget_.morph_targets();
+        const auto mine = all.subspan(target_.first_morph_target(mesh), target_.meshes()[mesh].targets.size());
+        return {mine.begin(), mine.end()};
+    }
+
+    [[nodiscard]] std::uint32_t mesh_of(std::uint32_t source_target) const {
+        std::uint32_t mesh = 0;
+        while (source_.first_morph_target(mesh + 1) <= source_target) ++mesh;
+        return mesh;
+    }
+
+    [[nodiscard]] bool has_counterpart(const Clip& clip) const {
+        const auto counts = [&](std::uint32_t joint) { return transfer_.joints[joint] != kNone || has_role_[joint]; };
+        const bool any_track = std::any_of(clip.tracks.begin(), clip.tracks.end(), [&](const TrackView& track) {
+            if (track.path != TrackPath::weights) return counts(track.target);
+            return transfer_.weights[track.target].mesh != kNone || follows(track.target);
+        });
+        if (any_track || !clip.packed) return any_track;
+        for (std::uint32_t joint = 0; joint < clip.packed->record.joints; ++joint) {
+            for (const TrackPath path : {TrackPath::rotation, TrackPath::translation, TrackPath::scale}) {
+                if (clip.packed->animates(joint, path) && counts(joint)) return true;
+            }
+        }
+        return false;
+    }
+
+    /// True if a sampled mesh here has a target of this mesh there.
+    [[nodiscard]] bool follows(std::uint32_t mesh) const {
+        const std::uint32_t first = source_.first_morph_target(mesh);
+        const auto all = retarget_.morph_targets();
+        return std::any_of(all.begin(), all.end(), [&](std::uint32_t from) {
+            return from != kNone && from >= first && from - first < source_.meshes()[mesh].targets.size();
+        });
+    }
+
+    void put(std::size_t number, Followed followed) {
+        for (std::size_t joint = 0; joint < lost_.size(); ++joint) {
+            const bool is_here = transfer_.joints[joint] != kNone;
+            lost_[joint] = lost_[joint] || (followed.moves[joint] && !is_here && !is_trunk(joint));
+            stretched_[joint] = stretched_[joint] || followed.stretches[joint];
+        }
+        Transfer::Clip& clip = transfer_.clips.emplace_back();
+        clip.number = number;
+        clip.report = report(followed);
+        clip.kept = std::move(followed.kept);
+        clip.tracks = std::move(followed.tracks);
+        for (const ContactCurve& contact : followed.contacts) {
+            CurveView curve;
+            curve.name = kContactNames[contact.contact];
+            curve.keys = static_cast<std::uint32_t>(contact.times.size());
+            curve.times = contact.times;
+            curve.values = contact.values;
+            clip.curves.push_back(write_curve(curve));
+        }
+    }
+
+    /// Columns of other numbers of joints share the turns of spine and neck.
+    [[nodiscard]] bool is_trunk(std::size_t joint) const {
+        return std::any_of(source_.roles().begin(), source_.roles().end(), [&](const JointRole& one) {
+            const auto role = static_cast<Role>(one.role);
+            return one.joint == joint && ((role >= Role::hips && role <= Role::head) || role == Role::spine_chain ||
+                                          role == Role::neck_chain);
+        });
+    }
+
+    [[nodiscard]] std::string name_of(std::uint32_t joint) const { return quoted(target_.joints()[joint].name, joint); }
+
+    /// What had to give way.
+    [[nodiscard]] std::string report(const Followed& followed) const {
+        const auto kept = static_cast<std::size_t>(std::count(followed.kept.begin(), followed.kept.end(), true));
+        std::string text;
+        if (!followed.tracks.empty())
+            text = counted(followed.tracks.size(), "track") + ", off by " + millimetres(followed.mean_error) +
+                   " on average, " + millimetres(followed.error) + with(" at %.3g s", followed.error_at);
+        if (kept != 0) text += (text.empty() ? "" : ", ") + counted(kept, "joint") + " as in the source";
+        if (followed.has_contacts) text += ", feet by its contact curves";
+        if (followed.limited == 0 && options_.retarget.obey_constraints) text += "; no limit acted";
+        if (followed.limited != 0) text += limits_text(followed);
+        if (followed.missed > 1e-4)
+            text += "; " + name_of(followed.missed_joint) + " misses its place by " + millimetres(followed.missed) +
+                    " at " + with("%.3g s", followed.missed_at);
+        if (followed.lowered > 1e-4) text += "; the hips are lowered by up to " + millimetres(followed.lowered);
+        return text;
+    }
+
+    [[nodiscard]] std::string limits_text(const Followed& followed) const {
+        std::vector<std::pair<std::uint32_t, Held>> worst(followed.held.begin(), followed.held.end());
+        std::stable_sort(worst.begin(), worst.end(),
+                         [](const auto& a, const auto& b) { return a.second.angle > b.second.angle; });
+        constexpr std::size_t kShown = 3;
+        if (worst.size() > kShown) worst.resize(kShown);
+        std::string text = "; limits acted in " + std::to_string(followed.limited) + " of " +
+                           counted(followed.frames, "frame") + ", most at";
+        for (std::size_t k = 0; k < worst.size(); ++k) {
+            const auto& [joint, held] = worst[k];
+            const Constraint* limit = target_.constraint(joint);
+            const std::string kind =
+                limit == nullptr
+                    ? ""
+                    : std::string(kShownNames<ConstraintModel>[static_cast<std::size_t>(limit->record.model)]) + ", ";
+            text += (k == 0 ? " " : ", ") + name_of(joint) + " (" + kind + degrees(held.angle) +
+                    with(" at %.3g s)", held.seconds);
+        }
+        return text;
+    }
+
+    static std::vector<std::size_t> numbers_in(const std::vector<bool>& set) {
+        std::vector<std::size_t> numbers;
+        for (std::size_t k = 0; k < set.size(); ++k) {
+            if (set[k]) numbers.push_back(k);
+        }
+        return numbers;
+    }
+
+    void warn() {
+        const auto names = names_of(source_.joints());
+        if (const auto lost = numbers_in(lost_); !lost.empty()) {
+            log_.warnings.push_back("nothing here follows " + counted(lost.size(), "joint") + ": " +
+                                    list_names(names, lost));
+        }
+        if (const auto stretched = numbers_in(stretched_); !stretched.empty()) {
+            log_.warnings.push_back("limbs keep their lengths; the clips move or scale " +
+                                    counted(stretched.size(), "joint") +
+                                    " against its parent: " + list_names(names, stretched));
+        }
+        std::set<std::uint32_t> found(retarget_.morph_targets().begin(), retarget_.morph_targets().end());
+        std::vector<std::string_view> lost;
+        for (std::uint32_t mesh = 0; mesh < source_.meshes().size(); ++mesh) {
+            if (!animates(mesh)) continue;
+            const auto& targets = source_.meshes()[mesh].targets;
+            for (std::uint32_t k = 0; k < targets.size(); ++k) {
+                if (!found.contains(source_.first_morph_target(mesh) + k)) lost.push_back(targets[k].name);
+            }
+        }
+        if (lost.empty()) return;
+        std::vector<std::size_t> all(lost.size());
+        for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
+        log_.warnings.push_back("there are no morph targets here for the weights of " + list_names(lost, all));
+    }
+
+    [[nodiscard]] bool animates(std::uint32_t mesh) const {
+        return std::any_of(transfer_.clips.begin(), transfer_.clips.end(), [&](const Transfer::Clip& one) {
+            const auto& tracks = source_.clips()[one.number].tracks;
+            return std::any_of(tracks.begin(), tracks.end(), [&](const TrackView& track) {
+                return track.path == TrackPath::weights && track.target == mesh;
+            });
+        });
+    }
+
+    Retarget retarget_;
+    Model source_, target_;
+    const RetargetClips& options_;
+    Log& log_;
+    Transfer transfer_;
+    std::vector<std::uint32_t> sampled_;  // meshes of the target
+    std::vector<bool> has_role_, lost_, stretched_;
+};
+
+}  // namespace
+
+edit::Edited retarget_clips(Bytes file, Bytes other, const RetargetClips& options, Log& log) {
+    const auto source = open_model(other, true, "the source");
+    if (!source) return source.error();
+    if (source->clips().empty()) return Problem{"the source has no clips"};
+    const auto target = open_model(file, false, "the target");
+    if (!target) return target.error();
+    auto retarget = Retarget::make(*source, *target, options.retarget);
+    if (!retarget) return explain(retarget.error(), *source, *target);
+    std::vector<std::size_t> clips(source->clips().size());
+    for (std::size_t k = 0; k < clips.size(); ++k) clips[k] = k;
+    if (!options.clip.empty()) {
+        auto named = edit::find_named(names_of(source->clips()), options.clip, "clip");
+        if (!named) return named.error();
+        clips = *std::move(named);
+    }
+    const float scale = retarget->scale();
+    const auto transfer = ClipRetargeting(*std::move(retarget), options, log).run(clips);
+    if (!transfer) return transfer.error();
+    log.done.push_back("legs are " + with("%.3g", scale) + " times as long as the source's");
+    return edit::put_clips(file, other, *transfer, options.same_name, log);
+}
+
+}  // namespace bendy::motion
