@@ -77,8 +77,8 @@ Problem explain(const RetargetError& error, const Model& source, const Model& ta
     text +=
         " (it has " + counted(numbers.size(), "joint") + ": " + list_names(names_of(model.joints()), numbers, 6) + ")";
     const Role example = error.missing.empty() ? Role::hips : error.missing.front();
-    return {text + ", as in {\"bendy_rig\": 1, \"roles\": {\"" +
-            std::string(kValueNames<Role>[static_cast<std::size_t>(example)]) + "\": \"NAME\"}}"};
+    return {text + R"(, as in {"bendy_rig": 1, "roles": {")" +
+            std::string(kValueNames<Role>[static_cast<std::size_t>(example)]) + R"(": "NAME"}})"};
 }
 
 class ClipRetargeting {
@@ -223,16 +223,18 @@ private:
     [[nodiscard]] std::string report(const Followed& followed) const {
         const auto kept = static_cast<std::size_t>(std::count(followed.kept.begin(), followed.kept.end(), true));
         std::string text;
-        if (!followed.tracks.empty())
+        if (!followed.tracks.empty()) {
             text = counted(followed.tracks.size(), "track") + ", off by " + millimetres(followed.mean_error) +
                    " on average, " + millimetres(followed.error) + with(" at %.3g s", followed.error_at);
+        }
         if (kept != 0) text += (text.empty() ? "" : ", ") + counted(kept, "joint") + " as in the source";
         if (followed.has_contacts) text += ", feet by its contact curves";
         if (followed.limited == 0 && options_.retarget.obey_constraints) text += "; no limit acted";
         if (followed.limited != 0) text += limits_text(followed);
-        if (followed.missed > 1e-4)
+        if (followed.missed > 1e-4) {
             text += "; " + name_of(followed.missed_joint) + " misses its place by " + millimetres(followed.missed) +
                     " at " + with("%.3g s", followed.missed_at);
+        }
         if (followed.lowered > 1e-4) text += "; the hips are lowered by up to " + millimetres(followed.lowered);
         return text;
     }
