@@ -435,7 +435,7 @@ private:
 
     bool limit_root(BodyLink& root, const glm::dquat& rotation) const {
         const double angle = angle_between(start_, root.trial);
-        const double most = double{plan_.options.root_turn};
+        const auto most = double{plan_.options.root_turn};
         if (angle <= most) return false;
         root.trial = legal_local(root, between(start_, root.trial, most / angle));
         return take_stopped_direction(root, base_, rotation);

@@ -372,9 +372,10 @@ private:
         mark_moved(from_, is_moved);
         const Pairing::Scale scale = pairing_.scale(is_moved);
         const double factor = std::max(scale.times, 1.0 / scale.times);
-        if (factor >= kOtherUnits)
+        if (factor >= kOtherUnits) {
             return Problem{pairing_.describe_scale(scale) +
                            "; export its clips in the units of this file or, of humans, retarget its clips instead"};
+        }
         if (factor > kNoticeable) {
             log_.warnings.push_back(pairing_.describe_scale(scale) +
                                     "; retargeting fits clips to a character of another size");

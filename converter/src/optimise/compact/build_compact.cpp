@@ -100,7 +100,9 @@ void count_curves(const Scene& scene, CompactReport& report) {
 
 std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& options, std::string_view generator,
                                      Report& report) {
-    const auto& [bound, progress, threads] = options;
+    const auto& bound = options.bound;
+    const auto& progress = options.progress;
+    const std::size_t threads = options.threads;
     constexpr int kAttempts = 10;           // the last one leaves the clips unchanged
     constexpr double kPackingShare = 0.6;   // of an attempt
     constexpr double kDraftShare = 0.2;     // of the rest of an attempt
@@ -187,7 +189,7 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
                    {.progress = part_of(progress, done, packing_done), .threads = threads, .only_keys = true});
         done = packing_done;
         // At the keys first, which finds nearly all errors; in full once nothing is left to correct.
-        const std::vector<std::uint32_t> packed = std::move(to_pack);
+        const std::vector<std::uint32_t> packed = std::exchange(to_pack, {});
         if (has_drafts) to_pack = above_bound(packed, true, draft_done);
         if (to_pack.empty() && waiting.empty()) to_pack = above_bound(all, false, attempt_done);
         if ((to_pack.empty() && waiting.empty()) || !(errors.back().metres <= result.max_error)) break;
