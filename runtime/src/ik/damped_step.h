@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-// What solvers by damped least squares share: see ik_least_squares.cpp.
+// The parts that the damped least-squares solvers share: see ik_least_squares.cpp.
 namespace bendy {
 
 /// Solves (A + damping) y = e in place, by Cholesky decomposition: `y` holds e first.

@@ -74,7 +74,7 @@ inline float same_scale(const Chain& chain, const ReachOptions& options) {
     return tolerance_of(chain, options) > 0.0f ? kExact : kRounded;
 }
 
-/// What a chain bends towards.
+/// The point or direction that a chain bends towards.
 struct Pole {
     bool is_there = false, is_point = false;
     glm::dvec3 place{0.0};  ///< in model space if it is a point, otherwise a direction in base space

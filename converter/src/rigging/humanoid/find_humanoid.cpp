@@ -203,7 +203,7 @@ private:
                        upper, lower)) {
             return;
         }
-        // Of `LeftCollar` and `LeftShoulder`, the upper arm is the lower one.
+        // A rig may have both `LeftCollar` and `LeftShoulder`: the one below is the upper arm.
         for (const Candidate& candidate : list(BodyPart::shoulder, side)) {
             if (is_named(upper, {BodyPart::shoulder}) && is_below(candidate.joint, upper) &&
                 is_below(lower, candidate.joint))

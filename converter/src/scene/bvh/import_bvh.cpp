@@ -131,7 +131,7 @@ public:
     }
 
 private:
-    /// What moves a joint: its numbers in a frame, in the file's order.
+    /// A joint's channels: the numbers that each frame has for it, in the order of the file.
     struct Moved {
         std::uint32_t joint = 0;
         std::vector<std::uint8_t> channels;  ///< X, Y, Z position: 0, 1, 2; X, Y, Z rotation: 3, 4, 5

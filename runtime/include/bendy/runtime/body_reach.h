@@ -66,7 +66,7 @@ class BodyReach {
 public:
     static constexpr std::size_t kMostEffectors = 32;
 
-    /// Errors: missing, if there is no effector; wrong_size, if there are more than kMostEffectors; out_of_range, if
+    /// Errors: missing, if no effector is given; wrong_size, if there are more than kMostEffectors; out_of_range, if
     /// the model has no such joint, or the root is not at or above each effector; not_finite.
     static Result<BodyReach, CallError> make(const Model& model, std::span<const Effector> effectors,
                                              const BodyReachOptions& options = {});
