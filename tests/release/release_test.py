@@ -33,15 +33,15 @@ CLIP, SECONDS = "Walk", 0.35
 TOLERANCE = 1e-5
 
 
-def run(*command, **options):
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, timeout=900, **options)
+def run(*command, timeout=900, **options):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, timeout=timeout, **options)
     if done.returncode != 0:
         raise AssertionError(f"{' '.join(map(str, command))}: {done.returncode}\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
     return done.stdout
 
 
 def make_release(folder):
-    run(ROOT / "scripts/release.sh", "--allow-changes", folder)
+    run(ROOT / "scripts/release.sh", "--allow-changes", folder, timeout=4 * 3600)
     return folder
 
 
