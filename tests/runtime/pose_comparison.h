@@ -383,6 +383,9 @@ private:
     void compare_decoding() {
         for (std::size_t count : {1u, 2u, 5u, 7u, 8u, 9u, 16u, 40u}) {
             compare_boxes<T>(count);
+            if constexpr (sizeof(T) < 4) {
+                for (const std::size_t width : {3u, 4u}) compare_displacing<T>(count, width);
+            }
             if constexpr (std::is_signed_v<T>) {
                 for (const std::size_t width : {2u, 3u}) compare_directions<T>(count, width);
             }
@@ -406,6 +409,49 @@ private:
                  std::abs(double{block.minimum[k % 3]}) + std::abs(moved));
         }
         note(errors_.decode, decoded.back(), kOutside, 1e-9);
+    }
+
+    /// Runs of 1, 2, 3, ... entries, with a vertex between them that stays.
+    template <class T>
+    void compare_displacing(std::size_t count, std::size_t width) {
+        std::vector<MorphRun> runs;
+        std::uint32_t entries = 0;
+        std::uint32_t vertices = 1;
+        for (std::uint32_t length = 1; entries < count; ++length) {
+            const auto some = std::min(length, static_cast<std::uint32_t>(count) - entries);
+            runs.push_back({entries, vertices, some});
+            entries += some;
+            vertices += some + 1;
+        }
+        const std::vector<T> integers = random_integers<T>(3 * count);
+        Floats floats(3 * count), before(width * vertices);
+        for (float& each : floats) each = number();
+        for (float& each : before) each = number();
+        DisplaceBlock block{runs.data(), runs.size(), number(), nullptr, width, nullptr, {}, {}, {}};
+        block.integers = {integers.data(), sizeof(T), std::is_signed_v<T>};
+        for (std::size_t c = 0; c < 3; ++c) {
+            block.minimum[c] = number();
+            block.step[c] = std::ldexp(number(), -8 * static_cast<int>(sizeof(T)));
+        }
+        for (const bool is_boxed : {false, true}) {
+            Floats moved = before;
+            block.to = moved.data();
+            block.floats = is_boxed ? nullptr : floats.data();
+            kernels_.displace(block);
+            std::vector<double> expected(before.begin(), before.end()), size(before.size(), 1e-9);
+            for (const auto& [entry, vertex, length] : runs) {
+                for (std::size_t k = 0; k < std::size_t{length} * 3; ++k) {
+                    const std::size_t from = std::size_t{entry} * 3 + k;
+                    const std::size_t to = (vertex + k / 3) * width + k % 3;
+                    const double least = is_boxed ? double{block.minimum[k % 3]} : 0.0;
+                    const double more = is_boxed ? double{block.step[k % 3]} * static_cast<double>(integers[from])
+                                                 : double{floats[from]};
+                    expected[to] += block.weight * (least + more);
+                    size[to] = std::abs(before[to]) + std::abs(block.weight) * (std::abs(least) + std::abs(more));
+                }
+            }
+            for (std::size_t k = 0; k < moved.size(); ++k) note(errors_.decode, moved[k], expected[k], size[k]);
+        }
     }
 
     template <class T>

@@ -9,6 +9,7 @@
 
 #include "blend_lanes.h"
 #include "decode_lanes.h"
+#include "displace_lanes.h"
 #include "pose_lanes.h"
 #include "poses_lanes.h"
 #include "sample_lanes.h"
@@ -30,6 +31,7 @@ constexpr KernelTable kTable{
     .unpack = unpack_lanes,
     .decode_boxed = decode_boxed_lanes,
     .decode_directions = decode_directions_lanes,
+    .displace = displace_lanes,
     .mix = blend_lanes<mix_joints>,
     .add = blend_lanes<add_joints>,
     .two_bones = kTwoBones,

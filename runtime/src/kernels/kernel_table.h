@@ -27,9 +27,10 @@ struct KernelTable {
     void (*sample_cubic)(const SampleBlock& block);  ///< cubic Hermite splines, rotations normalised
     /// Each component of a rotation is within 2e-6.
     void (*unpack)(const UnpackBlock& block);
-    /// Both: within two units in the last place of the largest number that goes into one.
+    /// These: within two units in the last place of the largest number that goes into one.
     void (*decode_boxed)(const BoxedBlock& block);
     void (*decode_directions)(const DirectionsBlock& block);
+    void (*displace)(const DisplaceBlock& block);
     void (*mix)(const BlendBlock& block);  ///< blends towards the other pose, rotations normalised
     void (*add)(const BlendBlock& block);  ///< adds the other pose, which is a difference
     /// The same bits as one limb alone; null: limbs are solved one by one.

@@ -203,6 +203,23 @@ struct BoxedBlock {
     float* to;
 };
 
+/// Successive entries of a morph target that displace successive vertices.
+struct MorphRun {
+    std::uint32_t entry, vertex, count;
+};
+
+/// Adds weight * displacement to vectors.
+struct DisplaceBlock {
+    const MorphRun* runs;
+    std::size_t count;
+    float weight;
+    float* to;                  ///< of vertex 0
+    std::size_t width;          ///< floats of a vertex: 3, or 4, of which the last one stays
+    const float* floats;        ///< x y z of each entry; null: minimum + step * integer
+    Integers integers;          ///< of one or two bytes
+    float minimum[3], step[3];  ///< of x y z
+};
+
 /// Unit vectors from points of the unfolded octahedron: see decode_octahedral.
 struct DirectionsBlock {
     Integers integers;  ///< signed, of one or two bytes

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <bendy/format/mesh.h>
+#include <bendy/runtime/vertices.h>
+
+#include "plan/blocks.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace bendy {
@@ -18,22 +22,19 @@ public:
     ActiveTarget() = default;
     ActiveTarget(const MorphTargetView& target, float weight) : target_(&target), weight_(weight) {}
 
-    /// Finds the entries of vertices [first, first + count). Cheap if `first` is where the last call's range ended.
-    void seek(std::size_t first, std::size_t count);
-
-    /// Adds weight * displacement to vertices [first, first + vectors), the range of the last seek.
-    /// \param shifts  the target's positions, normals or tangents
-    void add(const StreamView& shifts, std::span<glm::vec3> vectors) const;
-    /// The same to x, y and z.
-    void add(const StreamView& shifts, std::span<glm::vec4> vectors) const;
-
-    [[nodiscard]] const MorphTargetView& target() const { return *target_; }
+    /// Adds weight * displacement to vertices [first, first + count); of tangents, to x, y and z. Cheap to find if
+    /// `first` is where the last call's vertices ended.
+    /// \param vertices  those that are wanted, from `first` on
+    void displace(std::size_t first, std::size_t count, const Vertices& vertices);
 
 private:
+    template <class Vector>
+    void add(const std::optional<StreamView>& shifts, std::span<const MorphRun> runs, std::span<Vector> vectors) const;
+
     const MorphTargetView* target_ = nullptr;
     float weight_ = 0.0f;
-    std::size_t first_ = 0, last_ = 0;   // vertices [first, last) are displaced
-    std::uint32_t begin_ = 0, end_ = 0;  // by these entries
+    std::size_t last_ = 0;   // vertices before it have been displaced
+    std::size_t entry_ = 0;  // the first one of a vertex from last_ on
 };
 
 /// A mesh's targets whose weight is not zero, in the mesh's order.

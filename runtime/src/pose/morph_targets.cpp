@@ -23,97 +23,108 @@ void with_indices(const StreamView& stream, const Visit& visit) {
     }
 }
 
-/// Adds to successive vertices. Vectors of three numbers are treated as one array of numbers, which suits lanes.
-inline void add_dense(std::span<const glm::vec3> shifts, float weight, std::span<glm::vec3> vectors) {
-    if (shifts.empty()) return;
-    const float* const from = &shifts.front().x;
-    float* const to = &vectors.front().x;
-    for (std::size_t i = 0; i < shifts.size() * 3; ++i) to[i] += weight * from[i];
-}
-
-template <class Vector>
-void add_one(const glm::vec3& shift, float weight, Vector& vector) {
-    vector.x += weight * shift.x;
-    vector.y += weight * shift.y;
-    vector.z += weight * shift.z;
-}
-
-void add_dense(std::span<const glm::vec3> shifts, float weight, std::span<glm::vec4> vectors) {
-    for (std::size_t i = 0; i < shifts.size(); ++i) add_one(shifts[i], weight, vectors[i]);
-}
-
-/// \param entry  of the first of `shifts`
-/// \param first  the vertex of the first of `vectors`
-template <class Vector>
-void add_some(const MorphTargetView& target, std::uint32_t entry, std::span<const glm::vec3> shifts, float weight,
-              std::size_t first, std::span<Vector> vectors) {
-    if (!target.vertices) return add_dense(shifts, weight, vectors.subspan(entry - first, shifts.size()));
-    with_indices(*target.vertices, [&](const auto& indices) {
-        const auto touched = indices.subspan(entry, shifts.size());
-        constexpr std::size_t kRun = 4;
-        std::size_t i = 0;
-        while (i + kRun <= shifts.size()) {
-            const std::size_t vertex = touched[i] - first;
-            if (touched[i + kRun - 1] - touched[i] == kRun - 1) {  // they ascend
-                add_dense(shifts.subspan(i, kRun), weight, vectors.subspan(vertex, kRun));
-                i += kRun;
-            } else {
-                add_one(shifts[i++], weight, vectors[vertex]);
-            }
-        }
-        for (; i < shifts.size(); ++i) add_one(shifts[i], weight, vectors[touched[i] - first]);
-    });
-}
-
-template <class Vector>
-void add_entries(const MorphTargetView& target, const StreamView& shifts, float weight, std::uint32_t begin,
-                 std::uint32_t end, std::size_t first, std::span<Vector> vectors) {
-    if (target.is_frame()) return add_frame(*target.places, shifts, weight, first, vectors);
-    if (shifts.type == ComponentType::f32) {
-        const auto entries = view_at<glm::vec3>(shifts.data, 0, shifts.elements).subspan(begin, end - begin);
-        return add_some(target, begin, entries, weight, first, vectors);
+/// Returns the next runs of entries whose vertices are below `last`, as many as there is room for.
+/// \param touched  the vertices of all entries, which ascend
+/// \param entry    the first one; moved behind the runs
+/// \param first    the vertex that the runs call 0
+template <class Index>
+std::span<const MorphRun> next_runs(std::span<const Index> touched, std::size_t& entry, std::size_t first,
+                                    std::size_t last, std::span<MorphRun> room) {
+    std::size_t count = 0;
+    while (count < room.size() && entry < touched.size() && touched[entry] < last) {
+        const std::size_t vertex = touched[entry];
+        const auto part = touched.subspan(entry, std::min(touched.size() - entry, last - vertex));
+        std::size_t length = 0;
+        const auto goes_on = [&](std::size_t more) {
+            return length + more <= part.size() && part[length + more - 1] == vertex + length + more - 1;
+        };
+        while (goes_on(8)) length += 8;
+        if (goes_on(4)) length += 4;
+        while (goes_on(1)) ++length;
+        room[count++] = {static_cast<std::uint32_t>(entry), static_cast<std::uint32_t>(vertex - first),
+                         static_cast<std::uint32_t>(length)};
+        entry += length;
     }
-    std::array<glm::vec3, 64> decoded;
-    while (begin < end) {
-        const std::size_t count = std::min<std::size_t>(end - begin, decoded.size());
-        const auto some = std::span(decoded).first(count);
-        decode(shifts, begin, some);
-        add_some(target, begin, std::span<const glm::vec3>(some), weight, first, vectors);
-        begin += static_cast<std::uint32_t>(count);
-    }
+    return room.first(count);
+}
+
+Integers integers_of(const StreamView& stream) {
+    const bool is_signed = stream.type == ComponentType::i8 || stream.type == ComponentType::i16;
+    return {stream.data.data(), static_cast<std::uint32_t>(component_size(stream.type)), is_signed};
+}
+
+/// Whether a stream has vectors of integers in boxes.
+bool is_boxed(const StreamView& stream, std::size_t components) {
+    return stream.boxes.size() == components && stream.components == components && !stream.is_octahedral &&
+           stream.list.empty() && stream.type != ComponentType::f32;
 }
 
 }  // namespace
 
-void ActiveTarget::seek(std::size_t first, std::size_t count) {
-    const bool goes_on = first >= last_;
-    first_ = first;
-    last_ = first + count;
-    if (!target_->vertices || target_->is_frame()) {
-        begin_ = static_cast<std::uint32_t>(first);
-        end_ = static_cast<std::uint32_t>(last_);
+template <class Vector>
+void ActiveTarget::add(const std::optional<StreamView>& shifts, std::span<const MorphRun> runs,
+                       std::span<Vector> vectors) const {
+    if (!shifts || vectors.empty()) return;
+    const KernelTable& kernels = kernel_table();
+    DisplaceBlock block{runs.data(), runs.size(), weight_, &vectors.front().x, Vector::length(), nullptr, {}, {}, {}};
+    if (shifts->type == ComponentType::f32) {
+        block.floats = shifts->as<float>().data();
+        return kernels.displace(block);
+    }
+    if (is_boxed(*shifts, 3) && shifts->type != ComponentType::u32) {
+        block.integers = integers_of(*shifts);
+        for (std::size_t c = 0; c < 3; ++c) {
+            block.minimum[c] = shifts->boxes[c].minimum;
+            block.step[c] = shifts->boxes[c].step;
+        }
+        return kernels.displace(block);
+    }
+    std::array<glm::vec3, 64> decoded;
+    MorphRun part{};
+    block.runs = &part;
+    block.count = 1;
+    block.floats = &decoded.front().x;
+    for (const MorphRun& run : runs) {
+        for (std::uint32_t k = 0; k < run.count; k += part.count) {
+            part = {0, run.vertex + k, std::min<std::uint32_t>(run.count - k, decoded.size())};
+            decode(*shifts, run.entry + k, std::span(decoded).first(part.count));
+            kernels.displace(block);
+        }
+    }
+}
+
+void ActiveTarget::displace(std::size_t first, std::size_t count, const Vertices& vertices) {
+    if (target_->is_frame()) {
+        const auto add_of = [&](const std::optional<StreamView>& shape, auto vectors) {
+            if (shape && !vectors.empty()) add_frame(*target_->places, *shape, weight_, first, vectors);
+        };
+        add_of(target_->positions, vertices.positions);
+        add_of(target_->normals, vertices.normals);
+        add_of(target_->tangents, vertices.tangents);
         return;
     }
+    const auto add_all = [&](std::span<const MorphRun> runs) {
+        add(target_->positions, runs, vertices.positions);
+        add(target_->normals, runs, vertices.normals);
+        add(target_->tangents, runs, vertices.tangents);
+    };
+    if (!target_->vertices) {
+        const MorphRun run{static_cast<std::uint32_t>(first), 0, static_cast<std::uint32_t>(count)};
+        return add_all({&run, 1});
+    }
     with_indices(*target_->vertices, [&](const auto& touched) {
-        // They ascend, so that no more than `count` of them can be in the range.
-        auto begin = touched.begin() + (goes_on ? end_ : 0);
-        if (begin != touched.end() && *begin < first) begin = std::lower_bound(begin, touched.end(), first);
-        auto end = begin;
-        if (begin != touched.end() && *begin < last_) {
-            const auto left = static_cast<std::size_t>(touched.end() - begin);
-            end = std::lower_bound(begin, begin + static_cast<std::ptrdiff_t>(std::min(left, count)), last_);
+        if (first != last_) {
+            const auto begin = std::lower_bound(touched.begin(), touched.end(), first);
+            entry_ = static_cast<std::size_t>(begin - touched.begin());
         }
-        begin_ = static_cast<std::uint32_t>(begin - touched.begin());
-        end_ = static_cast<std::uint32_t>(end - touched.begin());
+        last_ = first + count;
+        std::array<MorphRun, 64> room;
+        for (;;) {
+            const auto runs = next_runs(touched, entry_, first, last_, room);
+            if (runs.empty()) return;
+            add_all(runs);
+        }
     });
-}
-
-void ActiveTarget::add(const StreamView& shifts, std::span<glm::vec3> vectors) const {
-    add_entries(*target_, shifts, weight_, begin_, end_, first_, vectors);
-}
-
-void ActiveTarget::add(const StreamView& shifts, std::span<glm::vec4> vectors) const {
-    add_entries(*target_, shifts, weight_, begin_, end_, first_, vectors);
 }
 
 std::span<ActiveTarget> find_active_targets(const MeshView& mesh, std::span<const float> weights,
@@ -160,17 +171,14 @@ Result<void, CallError> apply_morph_targets(const Mesh& mesh, std::span<const fl
         lighten(share, out.positions.first(vertices));
     if (have_frames(mesh, &MorphTargetView::normals) && mesh.normals && !out.normals.empty())
         lighten(share, out.normals.first(vertices));
+    // Without a stream in the mesh, normals and tangents are zero.
+    const Vertices shifted{
+        out.positions.empty() ? out.positions : out.positions.first(vertices),
+        mesh.normals && !out.normals.empty() ? out.normals.first(vertices) : std::span<glm::vec3>(),
+        mesh.tangents && !out.tangents.empty() ? out.tangents.first(vertices) : std::span<glm::vec4>()};
     for (std::size_t k = 0; k < mesh.targets.size(); ++k) {
         if (weights[k] == 0.0f) continue;
-        const MorphTargetView& target = mesh.targets[k];
-        ActiveTarget active(target, weights[k]);
-        active.seek(0, vertices);
-        const auto add = [&](const std::optional<StreamView>& shifts, const auto& vectors) {
-            if (shifts && !vectors.empty()) active.add(*shifts, vectors.first(vertices));
-        };
-        add(target.positions, out.positions);
-        if (mesh.normals) add(target.normals, out.normals);
-        if (mesh.tangents) add(target.tangents, out.tangents);
+        ActiveTarget(mesh.targets[k], weights[k]).displace(0, vertices, shifted);
     }
     return {};
 }
@@ -185,11 +193,6 @@ StreamView part_of(const StreamView& stream, std::size_t first, std::size_t coun
     return part;
 }
 
-Integers integers_of(const StreamView& part) {
-    const bool is_signed = part.type == ComponentType::i8 || part.type == ComponentType::i16;
-    return {part.data.data(), static_cast<std::uint32_t>(component_size(part.type)), is_signed};
-}
-
 /// Decodes the forms that compact files have; false for any other.
 template <class Vector>
 bool decode_with(const KernelTable& kernels, const StreamView& part, std::span<Vector> out) {
@@ -200,10 +203,7 @@ bool decode_with(const KernelTable& kernels, const StreamView& part, std::span<V
         kernels.decode_directions({integers, out.size(), part.components, &out.front().x});
         return true;
     }
-    if (part.boxes.size() != kNumbers || part.components != kNumbers || part.is_octahedral || !part.list.empty() ||
-        part.type == ComponentType::f32) {
-        return false;
-    }
+    if (!is_boxed(part, kNumbers)) return false;
     BoxedBlock block{integers, kNumbers * out.size(), {}, {}, &out.front().x};
     for (std::size_t k = 0; k < BoxedBlock::kPattern; ++k) {
         block.minimum[k] = part.boxes[k % kNumbers].minimum;

@@ -55,7 +55,8 @@ Staging::Staging(const Mesh& mesh, const SkinPlan* plan, std::span<const float> 
 
 template <class Vector>
 const float* Staging::bring(const std::optional<StreamView>& stream, std::optional<StreamView> MorphTargetView::*shifts,
-                            std::size_t first, std::size_t count, bool in_place, std::span<float> scratch) const {
+                            std::size_t first, std::size_t count, bool in_place, std::span<float> scratch,
+                            std::span<Vector>& shifted) const {
     constexpr auto kNumbersEach = static_cast<std::size_t>(Vector::length());
     if (in_place) return stream->as<float>().data() + first * kNumbersEach;
     assert(count * kNumbersEach <= scratch.size());
@@ -67,31 +68,29 @@ const float* Staging::bring(const std::optional<StreamView>& stream, std::option
         decode(*stream, first, vectors);
     }
     if (have_frames(mesh_, shifts)) lighten(rest_share_, vectors);
-    for (const ActiveTarget& active : active_) {
-        const auto& stream_of_target = active.target().*shifts;
-        if (stream_of_target) active.add(*stream_of_target, vectors);
-    }
+    shifted = vectors;
     return scratch.data();
 }
 
 void Staging::fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block) {
     const std::size_t count = block.vertices;
-    for (ActiveTarget& active : active_) active.seek(first, count);
+    Vertices shifted;
     block.out_positions = moved_on(wanted.out_positions, first);
     block.out_normals = moved_on(wanted.out_normals, first);
     block.out_tangents = moved_on(wanted.out_tangents, first);
     if (wanted.out_positions.data != nullptr) {
         block.positions = bring<glm::vec3>(positions_, &MorphTargetView::positions, first, count, positions_in_place_,
-                                           positions_scratch_);
+                                           positions_scratch_, shifted.positions);
     }
     if (wanted.out_normals.data != nullptr) {
         block.normals = bring<glm::vec3>(mesh_.normals, &MorphTargetView::normals, first, count, normals_in_place_,
-                                         normals_scratch_);
+                                         normals_scratch_, shifted.normals);
     }
     if (wanted.out_tangents.data != nullptr) {
         block.tangents = bring<glm::vec4>(mesh_.tangents, &MorphTargetView::tangents, first, count, tangents_in_place_,
-                                          tangents_scratch_);
+                                          tangents_scratch_, shifted.tangents);
     }
+    for (ActiveTarget& active : active_) active.displace(first, count, shifted);
     if (!mesh_.bones) return;
     const StreamView& bones = *mesh_.bones;
     const StreamView& weights = *mesh_.weights;

@@ -30,12 +30,14 @@ public:
     void fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block);
 
 private:
-    static constexpr std::size_t kVertices = 256;
+    static constexpr std::size_t kVertices = 512;
     static constexpr std::size_t kNumbers = 4096;  // at least 1 vertex of kMaxInfluences
 
+    /// \param shifted  becomes the vectors that morph targets displace, if there are any
     template <class Vector>
     const float* bring(const std::optional<StreamView>& stream, std::optional<StreamView> MorphTargetView::*shifts,
-                       std::size_t first, std::size_t count, bool in_place, std::span<float> scratch) const;
+                       std::size_t first, std::size_t count, bool in_place, std::span<float> scratch,
+                       std::span<Vector>& shifted) const;
 
     const Mesh& mesh_;
     const SkinPlan* plan_;
