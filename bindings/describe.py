@@ -145,6 +145,17 @@ class Function:
         return bool(self.parameters) and self.parameters[-1].type.name == "bendy_error"
 
     @property
+    def may_be_none(self):
+        """Whether the result is an index that may be none, also where no handle is NULL."""
+        return self.result.name == "uint32_t" and not self.result.is_pointer and "BENDY_NONE" in self.doc.replace("BENDY_NONE for NULL", "")
+
+    def is_list(self, one):
+        """Whether a parameter is an array of structs: `count` follows it, or its comment says so."""
+        following = self.parameters[self.parameters.index(one) + 1:][:1]
+        is_counted = any(later.name == "count" and not later.type.is_pointer for later in following)
+        return is_counted or one.doc.startswith("or NULL if") or "one for each" in one.doc
+
+    @property
     def is_json(self):
         return self.result is not None and self.result.name == "char" and self.name.endswith("_extras")
 

@@ -42,22 +42,19 @@ class Call:
         self.checks, self.arguments, self.taken, self.puts = [], [], [], []
         self.subject = None  # the handle that others must share a model with
         self.owner = None  # the preceding handle whose parts are named
-        for k, one in enumerate(self.parameters):
-            following = self.parameters[k + 1:k + 2]
-            is_counted = any(later.name == "count" and not later.type.is_pointer for later in following)
-            is_list = is_counted or one.doc.startswith("or NULL if") or "one for each" in one.doc
+        for one in self.parameters:
             self.arguments.append(one.name)
-            self.check(one, is_list)
+            self.check(one)
 
     def require(self, expression):
         self.checks.append(f"if (const bendy_status status = {expression}) return status;")
 
-    def check(self, one, is_list):
+    def check(self, one):
         kind = one.type.name
         if kind in self.api.handles:
             self.check_handle(one)
         elif kind in self.api.structs:
-            self.check_struct(one, is_list)
+            self.check_struct(one)
         elif one.type.is_pointer or one.count or kind in self.api.callbacks:
             self.check_numbers(one)
         elif one.enum:
@@ -81,9 +78,9 @@ class Call:
             self.subject = self.subject or one.name
             self.owner = one.name
 
-    def check_struct(self, one, is_list):
+    def check_struct(self, one):
         struct = self.api.structs[one.type.name]
-        if is_list:  # checked where it is read
+        if self.function.is_list(one):  # checked where it is read
             return
         if not one.type.is_const:
             check = "check_out" if struct.has_size else "check_pointer"

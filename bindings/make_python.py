@@ -4,7 +4,7 @@
 make_python.py BENDY_H made SOURCE.cpp STUB.pyi    the module bendy._bendy.c, over bindings/python/src/c_layer.h, and its types
 make_python.py BENDY_H expand FROM.py TO.py        a file of the package: **options: "bendy_NAME" in a signature, its docstring and
                                                    the call below become the options, with their defaults, in the order of the struct;
-                                                   "convert_options" are those of `convert`;
+                                                   the signature may have some of them itself; "convert_options" are those of `convert`;
                                                    follows: "bendy_HANDLE" in a class becomes what methods.py finds and it lacks
 
 A function becomes one of the same name, without bendy_: errors are exceptions; what the function fills is its result, and a struct
@@ -199,7 +199,7 @@ class Maker:
                 else:
                     roles.append(("array out" if counted and name in ARRAYS or self.is_rows(name) else "scalar", one))
             elif name in self.structs:
-                roles.append((("structs " if counted == "count" else "struct ") + ("in" if one.type.is_const else "out"), one))
+                roles.append((("structs " if function.is_list(one) else "struct ") + ("in" if one.type.is_const else "out"), one))
             else:
                 raise SystemExit(f"{function.name}: {one.name} is a {one.type}, which Python cannot take: say \"Only for C\" and why")
         return roles
@@ -258,7 +258,7 @@ class Maker:
                 found.append((f"array_result({owner}, result, Kind::{NUMBERS[result.name][0]}, count)", ARRAYS[result.name]))
             elif result.is_pointer:
                 found.append((f"pointer_result({owner}, result, Kind::{NUMBERS[result.name][0]})", "Optional[Pointer]"))
-            elif result.name == "uint32_t" and "BENDY_NONE" in function.doc:
+            elif function.may_be_none:
                 found.append(("index_result(result)", "Optional[int]"))
             else:
                 found.append(("py::cast(result)", NUMBERS[result.name][1]))
@@ -483,7 +483,9 @@ class Maker:
             options = list(self.options(found[1]))
             before = piece[:found.start()]
             star = "" if re.search(r"\*[,\w]", before[before.index("("):]) else "*, "
-            signature = star + ", ".join(f"{name}: {kind} = {value}" if kind else f"{name}={value}" for name, kind, value, _ in options)
+            by_hand = set(re.findall(r"\b(\w+):", before))
+            signature = star + ", ".join(f"{name}: {kind} = {value}" if kind else f"{name}={value}" for name, kind, value, _ in options
+                                         if name not in by_hand)
             column = len(before.rpartition("\n")[2])
             # Lines break between options.
             signature = textwrap.fill(re.sub(r"(?<!,) ", "\0", signature), 130 - column, break_long_words=False, break_on_hyphens=False)

@@ -10,7 +10,7 @@ ARRAYS = {"float": ("Float32Array<ArrayBuffer>", "Floats"), "double": ("Float64A
 
 
 def is_count(parameter):
-    return parameter is not None and parameter.name == "count" and str(parameter.type) == "size_t"
+    return parameter.name == "count" and str(parameter.type) == "size_t"
 
 
 class Call:
@@ -28,8 +28,8 @@ class Call:
         self.listed = None  # the name of the list whose length is `count`
         parameters = [one for one in function.parameters if one.type.name != "bendy_error"]
         self.has_count = any(map(is_count, parameters))
-        for one, after in zip(parameters, [*parameters[1:], None]):
-            self.take(one, after)
+        for one in parameters:
+            self.take(one)
         assert self.used <= SCRATCH, function.name
         if function.can_fail:
             self.passed.append("runtime.error")
@@ -45,7 +45,7 @@ class Call:
 
     # ---- Parameters
 
-    def take(self, one, after):
+    def take(self, one):
         name, kind, is_written = camel(one.name), one.type.name, not one.type.is_const
         struct = self.structs.api.structs.get(kind)
         if one.count:
@@ -60,8 +60,9 @@ class Call:
             self.given.append((name, "Handle", one.may_be_null))
             self.passed.append(f"runtime.address({name}, '{name}')")
         elif struct and not is_written and self.structs.is_given(struct):
-            self.take_objects(name, struct) if is_count(after) else self.take_object(name, struct, one.may_be_null)
-        elif struct and is_written and self.listed:
+            is_list = self.function.is_list(one)
+            self.take_objects(name, struct) if is_list else self.take_object(name, struct, one.may_be_null)
+        elif struct and is_written and self.listed and self.function.is_list(one):
             self.give_objects(name, struct)
         elif struct and is_written and one.name in ("out", "result"):
             self.give_object(name, struct)
@@ -162,7 +163,7 @@ class Call:
             return ("unknown", [f"return runtime.json({call});"]) if function.is_json else ("string", [f"return runtime.text({call});"])
         if result.is_pointer and function.can_fail:
             return "number", [f"return runtime.checkHandle({call});"]
-        if not result.is_pointer and "BENDY_NONE" in function.doc:
+        if function.may_be_none:
             return "number | null", [f"return orNull({call} >>> 0);"]
         return "number", [f"return Number({call});" if result.name in ("uint64_t", "int64_t") else f"return {call};"]
 

@@ -908,6 +908,77 @@ BENDY_API bendy_status bendy_reach_chains(bendy_pose* pose, const bendy_reach_re
 /* Solves every chain that follows a target joint, in order of priority. */
 BENDY_API bendy_status bendy_reach_all(bendy_pose* pose, bendy_error* error);
 
+/* A point of a joint that is to reach for a target. */
+typedef struct bendy_effector {
+    uint32_t size; /* in an array, the same for all effectors: the distance from one to the next */
+    uint32_t joint;
+    float tip_offset[3]; /* metres, in the joint's space */
+} bendy_effector;
+
+#define BENDY_EFFECTOR_INIT                   \
+    {                                         \
+        sizeof(bendy_effector), BENDY_NONE, { \
+            0.0f, 0.0f, 0.0f                  \
+        }                                     \
+    }
+
+/* Where an effector is to be. */
+typedef struct bendy_effector_target {
+    uint32_t size;         /* in an array, the same for all targets: the distance from one to the next */
+    float position[3];     /* metres, model space */
+    uint32_t has_rotation; /* 1: use `rotation` */
+    float rotation[4];     /* unit quaternion, model space: orientation of the effector's joint */
+    float weight; /* 0 to 1: beside the other effectors', where not all targets can be reached; 0: anywhere will do */
+    float rotation_weight; /* 0 to 1: the same for the rotation */
+} bendy_effector_target;
+
+#define BENDY_EFFECTOR_TARGET_INIT \
+    { sizeof(bendy_effector_target), {0.0f, 0.0f, 0.0f}, 0, {0.0f, 0.0f, 0.0f, 1.0f}, 1.0f, 1.0f }
+
+typedef struct bendy_body_reach_options {
+    uint32_t size;
+    uint32_t root; /* joint: the topmost one that moves, at or above all effectors' joints; or BENDY_NONE: the nearest
+                      such joint */
+    float root_shift[3]; /* metres along the axes of model space, each way: how far the root may move from its place in
+                            the pose */
+    float root_turn;     /* radians: how far the root may turn from its orientation in the pose */
+    uint32_t iterations; /* maximum for each starting point */
+    uint32_t restarts;   /* number of other starting points to try when it is stuck */
+    float tolerance; /* metres; 0: 0.0001 of the longest way from the root to an effector; for rotations the same part
+                        in radians */
+    uint32_t obey_constraints; /* 1: joints stay within their constraints */
+} bendy_body_reach_options;
+
+#define BENDY_BODY_REACH_OPTIONS_INIT \
+    { sizeof(bendy_body_reach_options), BENDY_NONE, {0.0f, 0.0f, 0.0f}, 0.0f, 60, 8, 0.0f, 1 }
+
+/* The joints between a root and 1 to 32 effectors, such as hands, feet and head. Contains work memory, so each thread
+ * needs one of its own. */
+typedef struct bendy_body_reach bendy_body_reach;
+
+BENDY_API bendy_body_reach* bendy_body_reach_new(const bendy_model* model, const bendy_effector* effectors,
+                                                 size_t count, const bendy_body_reach_options* options /* or NULL */,
+                                                 bendy_error* error);
+BENDY_API void bendy_body_reach_free(bendy_body_reach* body); /* does nothing for NULL */
+/* Returns the topmost joint that moves: the one that was given, or the one that was found; BENDY_NONE for NULL. */
+BENDY_API uint32_t bendy_body_reach_root(const bendy_body_reach* body);
+
+typedef struct bendy_body_reached {
+    uint32_t size;
+    uint32_t is_reached; /* 1: every effector is at its target, within the tolerance */
+    uint32_t farthest;   /* index of the effector that is farthest from its target; of those with a weight */
+    float distance;      /* metres, of that one */
+    float angle;         /* radians: largest between an effector's orientation and its target's */
+    uint32_t iterations;
+} bendy_body_reached;
+
+/* Full-body inverse kinematics: moves the joints between the root and the effectors so that each effector is at its
+ * target, one for each effector, or as near to it as all targets, weighted, allow; within the joints' constraints and
+ * starting from the current pose. IK chains play no part. `result` may be NULL. A target that is not reached is a
+ * result, not an error. Fails for numbers in the pose that are not finite, and leaves it as it is. */
+BENDY_API bendy_status bendy_reach_body(bendy_pose* pose, bendy_body_reach* body, const bendy_effector_target* targets,
+                                        size_t count, bendy_body_reached* result /* or NULL */, bendy_error* error);
+
 /* Computes the matrices of `count` joints starting at joint `first`, 16 floats each, from joint space to model space
  * or, if `world` is given (model space to world space, 16 floats), to world space. `world` may be NULL. */
 BENDY_API bendy_status bendy_joint_matrices(bendy_pose* pose, uint32_t first, uint32_t count,

@@ -831,6 +831,39 @@ bendy_status bendy_reach_all(bendy_pose* pose, bendy_error* error) {
     });
 }
 
+bendy_body_reach* bendy_body_reach_new(const bendy_model* model, const bendy_effector* effectors, size_t count,
+                                       const bendy_body_reach_options* options, bendy_error* error) {
+    bendy_body_reach* made = nullptr;
+    guarded(error, [&]() -> bendy_status {
+        if (const bendy_status status = check_pointer(model, "model", error)) return status;
+        bendy_body_reach_options taken_options = BENDY_BODY_REACH_OPTIONS_INIT;
+        if (const bendy_status status = take(options, "options", taken_options, error)) return status;
+        if (const bendy_status status = check_fields(taken_options, error)) return status;
+        return bendy::capi::body_reach_new(model, effectors, count, taken_options, made, error);
+    });
+    return made;
+}
+
+void bendy_body_reach_free(bendy_body_reach* body) {
+    delete body;
+}
+
+bendy_status bendy_reach_body(bendy_pose* pose, bendy_body_reach* body, const bendy_effector_target* targets,
+                              size_t count, bendy_body_reached* result, bendy_error* error) {
+    return guarded(error, [&]() -> bendy_status {
+        if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
+        if (const bendy_status status = check_pointer(body, "body", error)) return status;
+        if (const bendy_status status = check_same_model(body, *pose, "body", "pose", error)) return status;
+        if (const bendy_status status = result == nullptr ? BENDY_OK : check_out(result, "result", error))
+            return status;
+        bendy_body_reached made_result{};
+        if (const bendy_status status = bendy::capi::reach_body(pose, body, targets, count, made_result, error))
+            return status;
+        if (result != nullptr) put(*result, made_result);
+        return BENDY_OK;
+    });
+}
+
 bendy_status bendy_joint_matrices(bendy_pose* pose, uint32_t first, uint32_t count, const float* world, float* matrices,
                                   bendy_error* error) {
     return guarded(error, [&]() -> bendy_status {

@@ -106,6 +106,10 @@ bendy_status reach(bendy_pose* pose, uint32_t chain, const float* position, cons
 bendy_status reach_chains(bendy_pose* pose, const bendy_reach_request* requests, size_t count,
                           bendy_reach_result* results, bendy_error* error);
 bendy_status reach_all(bendy_pose* pose, bendy_error* error);
+bendy_status body_reach_new(const bendy_model* model, const bendy_effector* effectors, size_t count,
+                            const bendy_body_reach_options& options, bendy_body_reach*& made, bendy_error* error);
+bendy_status reach_body(bendy_pose* pose, bendy_body_reach* body, const bendy_effector_target* targets, size_t count,
+                        bendy_body_reached& result, bendy_error* error);
 bendy_status joint_matrices(bendy_pose* pose, uint32_t first, uint32_t count, const float* world, float* matrices,
                             bendy_error* error);
 bendy_status bone_matrices(bendy_pose* pose, uint32_t mesh, float* matrices, size_t count, bendy_error* error);

@@ -369,6 +369,70 @@ struct Fields<bendy_reach_request> {
 };
 
 template <>
+struct Fields<bendy_effector> {
+    static bendy_status check(const bendy_effector& from, bendy_error* error) {
+        if (const bendy_status status = check_finite(from.tip_offset, "tip_offset", error)) return status;
+        return BENDY_OK;
+    }
+    template <class To>
+    static void from_c(const bendy_effector& from, To& to) {
+        assign(from.joint, to.joint);
+        assign(from.tip_offset, to.tip_offset);
+    }
+};
+
+template <>
+struct Fields<bendy_effector_target> {
+    static bendy_status check(const bendy_effector_target& from, bendy_error* error) {
+        if (const bendy_status status = check_finite(from.position, "position", error)) return status;
+        if (const bendy_status status = from.has_rotation == 0 ? BENDY_OK : check_rotation(from.rotation, error))
+            return status;
+        if (const bendy_status status = check_fraction(from.weight, "weight", error)) return status;
+        if (const bendy_status status = check_fraction(from.rotation_weight, "rotation_weight", error)) return status;
+        return BENDY_OK;
+    }
+    template <class To>
+    static void from_c(const bendy_effector_target& from, To& to) {
+        assign(from.position, to.position);
+        if (from.has_rotation != 0) assign(from.rotation, to.rotation.emplace());
+        assign(from.weight, to.weight);
+        assign(from.rotation_weight, to.rotation_weight);
+    }
+};
+
+template <>
+struct Fields<bendy_body_reach_options> {
+    static bendy_status check(const bendy_body_reach_options& from, bendy_error* error) {
+        if (const bendy_status status = check_finite(from.root_shift, "root_shift", error)) return status;
+        if (const bendy_status status = check_finite(from.root_turn, "root_turn", error)) return status;
+        if (const bendy_status status = check_finite(from.tolerance, "tolerance", error)) return status;
+        return BENDY_OK;
+    }
+    template <class To>
+    static void from_c(const bendy_body_reach_options& from, To& to) {
+        assign(from.root, to.root);
+        assign(from.root_shift, to.root_shift);
+        assign(from.root_turn, to.root_turn);
+        assign(from.iterations, to.iterations);
+        assign(from.restarts, to.restarts);
+        assign(from.tolerance, to.tolerance);
+        assign(from.obey_constraints, to.obey_constraints);
+    }
+};
+
+template <>
+struct Fields<bendy_body_reached> {
+    template <class From>
+    static void to_c(const From& from, bendy_body_reached& to) {
+        if constexpr (requires { from.is_reached; }) assign(from.is_reached, to.is_reached);
+        if constexpr (requires { from.farthest; }) assign(from.farthest, to.farthest);
+        if constexpr (requires { from.distance; }) assign(from.distance, to.distance);
+        if constexpr (requires { from.angle; }) assign(from.angle, to.angle);
+        if constexpr (requires { from.iterations; }) assign(from.iterations, to.iterations);
+    }
+};
+
+template <>
 struct Fields<bendy_time_span> {
     static bendy_status check(const bendy_time_span& from, bendy_error* error) {
         if (const bendy_status status = check_finite(from.from, "from", error)) return status;

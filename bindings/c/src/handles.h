@@ -4,6 +4,7 @@
 #include <bendy/format/codec.h>
 #include <bendy/format/file.h>
 #include <bendy/runtime/binding.h>
+#include <bendy/runtime/body_reach.h>
 #include <bendy/runtime/bounds.h>
 #include <bendy/runtime/crossfade.h>
 #include <bendy/runtime/crowd.h>
@@ -16,6 +17,7 @@
 #include <bendy/runtime/root_motion.h>
 #include <bendy/runtime/transform.h>
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <utility>
@@ -78,6 +80,12 @@ struct bendy_pose {
 
     std::shared_ptr<const bendy::capi::Character> character;
     bendy::Pose pose;
+};
+
+struct bendy_body_reach {
+    std::shared_ptr<const bendy::capi::Character> character;
+    bendy::BodyReach body;
+    std::size_t effectors;  ///< their number
 };
 
 struct bendy_lod {

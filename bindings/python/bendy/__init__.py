@@ -24,6 +24,7 @@ import numpy as _np
 
 from . import _bendy
 from ._bendy import __version__
+from ._body_reach import BodyReach, BodyReached, Effector, EffectorTarget
 from ._errors import ConversionError, EditError, Error, InvalidError, MalformedError, RenderError, UnsupportedError
 from ._items import Items
 from ._material import Material, Texture, TextureUse
@@ -34,8 +35,8 @@ from ._pose import Pose, ReachRequest, ReachResult
 from ._retarget import Retarget, Retargeted, RetargetState
 
 __all__ = [
-    "Binding", "Chain", "Chunk", "Clip", "Constraint", "Conversion", "ConversionError", "Crossfade", "Crowd", "Curve", "Edit",
-    "EditError", "Error", "Export", "Fade", "Fault", "Faults", "File", "FrameSequence", "InvalidError", "Items", "Joint", "Lod", "MalformedError", "Marker",
+    "Binding", "BodyReach", "BodyReached", "Chain", "Chunk", "Clip", "Constraint", "Conversion", "ConversionError", "Crossfade", "Crowd", "Curve", "Edit",
+    "EditError", "Effector", "EffectorTarget", "Error", "Export", "Fade", "Fault", "Faults", "File", "FrameSequence", "InvalidError", "Items", "Joint", "Lod", "MalformedError", "Marker",
     "Material", "Mesh", "Model", "MorphTarget", "Playback", "PlayedInterval", "Playing", "Pose", "ReachRequest", "ReachResult",
     "RenderError", "Retarget", "RetargetState", "Retargeted", "RootMotion", "RootPath", "Submesh", "Texture", "TextureUse", "Track", "UnsupportedError", "assemble", "contact_sheet", "convert", "diff",
     "dump", "ease", "edit", "encode_png", "export", "inspect", "open", "render", "save_png", "validate",

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._bendy import c
+from ._body_reach import BodyReach, BodyReached, EffectorTarget
 from ._items import Character, Floats, check_units, column_major, floats, row_major
 from ._mesh import Lod, Mesh
 from ._model import Chain, Clip, Joint
@@ -101,6 +102,15 @@ class Pose:
             listed.append(c.ReachRequest(chain=number, position=position, rotation=wanted, options=taken))
             results.append(ReachResult(self._character, number, taken))
         return c.reach_chains(self._handle, listed, results)
+
+    def reach_body(self, body: BodyReach, targets: Sequence[Union[ArrayLike, EffectorTarget]]) -> BodyReached:
+        """Full-body IK: moves the joints between the body's root and its effectors so that each effector is at its target, or as near to it
+        as all targets, weighted, allow; within the joints' constraints and starting from the current pose. IK chains play no part.
+
+        targets: one for each effector, (3,) metres in model space or an EffectorTarget. A target that is not reached is a result, not an
+        error. Raises ValueError, TypeError; the pose is then as before."""
+        listed = [one if isinstance(one, EffectorTarget) else EffectorTarget(one) for one in targets]
+        return c.reach_body(self._handle, body._handle, listed, BodyReached())
 
     def skin(self, mesh: Union[None, str, SupportsIndex, Mesh] = None, *, normals: bool = False, tangents: bool = False,
              method: str = "linear", lod: Optional[Lod] = None, out: Any = None) -> Any:

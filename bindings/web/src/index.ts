@@ -7,6 +7,7 @@
  * @packageDocumentation
  */
 export { Binding, type BindingOptions } from './binding.js';
+export { BodyReach, type BodyReached, type BodyReachOptions, type Effector, type EffectorTarget } from './body_reach.js';
 export { Bounds, type Box } from './bounds.js';
 export { Clip, Curve, type Marker, type Track } from './clip.js';
 export { Crowd } from './crowd.js';

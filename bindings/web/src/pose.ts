@@ -1,4 +1,5 @@
 import type { Binding } from './binding.js';
+import type { BodyReach, BodyReached, EffectorTarget } from './body_reach.js';
 import type { Clip } from './clip.js';
 import { BendyError } from './errors.js';
 import {
@@ -259,6 +260,16 @@ export class Pose extends MadePose {
   reachChains(requests: readonly ReachRequest[]): ReachResult[] {
     const numbered = requests.map((request) => ({ ...request, chain: this.model.chains.number(request.chain) }));
     return this.runtime.calls.bendy_reach_chains(this, numbered).map(withReached);
+  }
+
+  /**
+   * Full-body IK: moves the joints between the body's root and its effectors so that each effector is at its target, or as near to it
+   * as all targets, weighted, allow; within the joints' constraints and starting from the current pose. IK chains play no part.
+   * `targets` has one for each effector. A target that is not reached is a result, not an error. Throws BAD_ARGUMENT; the pose is then
+   * as before.
+   */
+  reachBody(body: BodyReach, targets: readonly EffectorTarget[]): BodyReached {
+    return this.runtime.calls.bendy_reach_body(this, body, targets);
   }
 
   /** Computes 16 floats per joint, column by column: from joint space to model space or, if `world` (16 floats) is given, to it. */

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { LevelOfDetail, Model } from '../dist/index.js';
+import { BodyReach, LevelOfDetail, Model } from '../dist/index.js';
 import { bendy, convert, corpusFile, difference, example, extent, folder, plain, read, simd } from './helpers.mjs';
 
 // The kernels round differently: a vertex is a sum of up to eight products of floats with an error of 2^-24 each, and so are
@@ -184,6 +184,62 @@ test('several chains reach as one after another', async () => {
       assert.throws(() => together.reachChains([requests[1], request]), { code });
       assert.deepEqual(together.locals.slice(), single.locals); // nothing has moved
     }
+    model.dispose();
+  }
+});
+
+test('both hands reach at the same time, and each option arrives', async () => {
+  const effectors = [{ joint: 'mixamorig:LeftHand' }, { joint: 'mixamorig:RightHand' }];
+  const targets = [{ position: [0.3, 1.3, 0.35] }, { position: [-0.25, 1.2, 0.4] }];
+  const origin = (pose, joint) => {
+    const at = 16 * pose.model.joints.number(joint) + 12;
+    return pose.modelMatrices().slice(at, at + 3);
+  };
+  for (const runtime of [simd, plain]) {
+    const model = await Model.open(read(example('mannequin')), { runtime });
+    const body = new BodyReach(model, effectors);
+    assert.equal(model.joints[body.root].name, 'mixamorig:Spine2');
+    const pose = model.pose();
+    const { isReached, distance, iterations } = pose.reachBody(body, targets);
+    assert.ok(isReached && distance < 1e-3 && iterations > 0);
+    effectors.forEach(({ joint }, k) => assert.ok(difference(origin(pose, joint), targets[k].position) < 1e-3));
+
+    const reached = (options, wanted = targets, ends = effectors) => {
+      const other = model.pose();
+      return JSON.stringify([other.reachBody(new BodyReach(model, ends, options), wanted), ...other.locals]);
+    };
+    const far = [{ position: [1.5, 1.2, 0.5] }, { position: [-1.5, 1.2, 0.5] }];
+    const root = 'mixamorig:Hips';
+    for (const [before, after] of [
+      [reached({}), reached({ root })],
+      [reached({ root }, far), reached({ root, rootShift: [0.1, 0.1, 0.1] }, far)],
+      [reached({ root }, far), reached({ root, rootTurn: 0.3 }, far)],
+      [reached({}), reached({ iterations: 1, restarts: 0 })],
+      [reached({}), reached({ tolerance: 0.1 })],
+      [reached({}, far), reached({ restarts: 0 }, far)],
+      [reached({}, far), reached({ obeyConstraints: false }, far)],
+      [reached({}, far), reached({}, [far[0], { ...far[1], weight: 0.1 }])],
+      [reached({}), reached({}, [targets[0], { ...targets[1], rotation: [0, 1, 0, 0] }])],
+      [reached({}, [targets[0], { ...targets[1], rotation: [0, 1, 0, 0] }]), reached({}, [targets[0], { ...targets[1], rotation: [0, 1, 0, 0], rotationWeight: 0.1 }])],
+      [reached({}), reached({}, targets, [effectors[0], { ...effectors[1], tipOffset: [0, 0.1, 0] }])],
+    ]) assert.notEqual(before, after);
+
+    const locals = pose.locals.slice();
+    for (const [call, code] of [
+      [() => new BodyReach(model, []), 'BAD_ARGUMENT'],
+      [() => new BodyReach(model, [{ joint: 'Nose' }]), 'NOT_FOUND'],
+      [() => new BodyReach(model, effectors, { root: 'mixamorig:LeftHand' }), 'BAD_ARGUMENT'],
+      [() => new BodyReach(model, effectors, { rootTurn: Number.NaN }), 'BAD_ARGUMENT'],
+      [() => pose.reachBody(body, []), 'BAD_ARGUMENT'],
+      [() => pose.reachBody(body, targets.slice(1)), 'BAD_ARGUMENT'],
+      [() => pose.reachBody(body, [targets[0], { position: [0, 1] }]), 'BAD_ARGUMENT'],
+      [() => pose.reachBody(body, [targets[0], { position: [0, 1, Number.NaN] }]), 'BAD_ARGUMENT'],
+      [() => pose.reachBody(body, [targets[0], { position: [0, 1, 0], weight: 2 }]), 'BAD_ARGUMENT'],
+      [() => pose.reachBody(body, [targets[0], { position: [0, 1, 0], rotation: [0, 0, 0, 2] }]), 'BAD_ARGUMENT'],
+    ]) assert.throws(call, { code }, String(call));
+    assert.deepEqual(pose.locals.slice(), locals);
+    body.dispose();
+    assert.throws(() => pose.reachBody(body, targets), { code: 'DISPOSED' });
     model.dispose();
   }
 });
