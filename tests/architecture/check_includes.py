@@ -21,9 +21,9 @@ MAY_USE = {
     "tools/cli": {"format", "runtime", "converter", "tools/diff", "tools/edit", "tools/motion", "tools/text_form", "tools/stages",
                   "tools/viewer", "tools/reports"},
     "bindings/c": {"format", "runtime"},
-    "bindings/python": {"format", "runtime", "converter", "tools/diff", "tools/edit", "tools/text_form", "tools/viewer",
+    "bindings/python": {"format", "runtime", "converter", "tools/diff", "tools/edit", "tools/motion", "tools/text_form", "tools/viewer",
                         "tools/reports"},
-    "bindings/web": {"format", "runtime", "converter", "tools/diff", "tools/edit", "tools/text_form", "tools/reports"},
+    "bindings/web": {"format", "runtime", "converter", "tools/diff", "tools/edit", "tools/motion", "tools/text_form", "tools/reports"},
 }
 FOLDER_OF = {folder.split("/")[-1]: folder for folder in MAY_USE}
 # Folders of runtime/src and converter/src, and those that each may use beside its own.

@@ -69,7 +69,7 @@ def test_the_pipeline_example(tmp_path):
     assert again.returncode == 2 and "overwrite" in again.stderr
 
 
-@pytest.mark.parametrize("page", ["docs/python.md", "docs/languages.md"])
+@pytest.mark.parametrize("page", ["docs/python.md", "docs/languages.md", "docs/retarget.md"])
 def test_the_documentations_blocks_run(page, tmp_path):
     blocks = re.findall(r"^```python\n(.*?)^```$", (ROOT / page).read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
     assert blocks

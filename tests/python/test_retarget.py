@@ -1,4 +1,4 @@
-"""Roles, and poses of one model on another one of different build."""
+"""Roles, poses of one model on another one of different build, and clips in files."""
 
 import bendy
 import numpy
@@ -51,3 +51,85 @@ def test_poses_of_other_models_are_refused(model, mannequin):
     for contacts in ([1, 2, 3], [1, numpy.nan, 0, 0]):
         with pytest.raises(ValueError):
             retarget.apply(pose, model.pose(), state, contacts)
+
+
+def other_build(text):
+    """Lengthens the shins of a text form, and renames its joints."""
+    for part in text:
+        for name, content in part.items():
+            if name == "SKIN" and content[0].get("NAME", "").endswith(("LeftFoot", "RightFoot")):
+                rest = next(one["PIVO"] for one in content if "PIVO" in one)[0]["REST"]
+                rest["translation"] = [1.3 * number for number in rest["translation"]]
+            if name in ("HEAD", "OBJE", "SKIN"):
+                other_build(content)
+
+
+@pytest.fixture(scope="module")
+def tall(mannequin, tmp_path_factory):
+    """The mannequin with longer shins, other names of joints, and no clip but Idle: a path."""
+    text = bendy.dump(mannequin)
+    other_build(text["HEAD"])
+    edit = bendy.edit(bendy.assemble(text)).strip("clip:Walk").rename("joint", {"mixamorig:*": "b_*"})
+    return edit.save(tmp_path_factory.mktemp("tall") / "tall.bendy")
+
+
+@pytest.mark.parametrize("options, flags", [
+    ({}, []),
+    ({"clip": "Wal*"}, []),
+    ({"obey_constraints": False, "plants_feet": False}, ["--ignore-constraints", "--free-feet"]),
+    ({"rest_poses": "alike"}, ["--rests-alike"]),
+])
+def test_clips_come_as_by_the_program(mannequin, tall, program, tmp_path, options, flags):
+    options = {"clip": "Walk", **options}
+    edit = bendy.edit(tall).retarget_clips(mannequin, **options)
+    program("edit", tall, "-o", tmp_path / "out.bendy", "--retarget", f"{mannequin}:{options['clip']}", *flags)
+    assert bytes(edit.data) == (tmp_path / "out.bendy").read_bytes()
+    assert edit.open().clips.names == ["Idle", "Walk"] and not edit.validate()
+    assert any(line.startswith('retargeted clip "Walk"') and "off by" in line for line in edit.done)
+
+
+def test_options_of_retargeting_change_the_clip(mannequin, tall):
+    usual, others = (bytes(bendy.edit(tall).retarget_clips(mannequin, "Walk", **options).data)
+                     for options in ({}, {"obey_constraints": False}))
+    assert usual != others
+    assert usual != bytes(bendy.edit(tall).retarget_clips(mannequin, "Walk", plants_feet=False).data)
+
+
+def test_a_source_of_another_kind_and_clips_of_the_same_name(tall):
+    source = ROOT / "examples/mannequin.glb"
+    edit = bendy.edit(tall)
+    with pytest.raises(bendy.EditError, match='"Idle"'):
+        edit.retarget_clips(source)
+    assert edit.done == [] and edit.open().clips.names == ["Idle"]
+    assert edit.retarget_clips(source, same_name="number").open().clips.names == ["Idle", "Idle.001", "Walk"]
+    assert bendy.edit(tall).retarget_clips(source, 0, same_name="replace").open().clips.names == ["Idle"]
+    with pytest.raises(ValueError, match="input"):
+        bendy.edit(tall).retarget_clips(source, "Walk").save(tall, overwrite=True)
+
+
+def test_retargeting_of_files_says_what_is_wrong(mannequin, tall):
+    edit = bendy.edit(tall)
+    for call, error, message in [
+        (lambda: edit.retarget_clips(mannequin, "Wlak"), bendy.EditError, "Wlak"),
+        (lambda: edit.retarget_clips(ROOT / "examples/tentacle.glb"), bendy.EditError, "the source does not say what its joints are"),
+        (lambda: bendy.edit(ROOT / "examples/tentacle.glb").retarget_clips(mannequin), bendy.EditError, "the target does not say"),
+        (lambda: edit.retarget_clips(mannequin, same_name="magic"), ValueError, "same_name"),
+        (lambda: edit.retarget_clips(mannequin, rest_poses="magic"), ValueError, "rest_poses"),
+        (lambda: edit.retarget_clips(b"no character"), bendy.EditError, "the source cannot be opened: this is not a bendy file"),
+        (lambda: edit.retarget_clips(mannequin.parent / "none.bendy"), FileNotFoundError, ""),
+    ]:
+        with pytest.raises(error, match=message):
+            call()
+    assert bytes(edit.data) == tall.read_bytes() and edit.done == edit.warnings == []
+
+
+def test_roles_are_given(mannequin):
+    edit = bendy.edit(mannequin).set_role("hips", None).set_role("tail:2", "mixamorig:Spine")
+    roles = {joint.name: (joint.role, joint.role_place) for joint in edit.open().joints}
+    assert roles["mixamorig:Hips"] == ("none", 0) and roles["mixamorig:Spine"] == ("tail", 2)
+    with pytest.raises(bendy.EditError, match="the target has no joint for hips"):
+        edit.retarget_clips(mannequin)
+    with pytest.raises(ValueError, match="nose"):
+        edit.set_role("nose", "mixamorig:Head")
+    with pytest.raises(bendy.EditError, match="Nose"):
+        edit.set_role("hips", "Nose")

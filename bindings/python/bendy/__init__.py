@@ -176,6 +176,26 @@ class Edit(File):
         self._inputs = [*self._inputs, other]
         return self
 
+    def retarget_clips(self, other, clip=None, *, same_name="error", **options: "bendy_retarget_options"):
+        """Puts clips of another source on this character, whatever its build: see docs/retarget.md. `done` has a line for each with what
+        had to give way, and `warnings` what is lost.
+
+        other: a source with a character whose joints have roles, as this one's must have. clip: which of its clips, a name, a pattern as in
+        "Walk*", or a number; None: all. same_name: error, replace or number, if there is a clip of that name.
+
+        **options
+        """
+        clip = "" if clip is None else str(clip)
+        taken = _bendy.c.RetargetOptions(**options)
+        self._take(_bendy.retarget_clips(self._source, _bendy_source(other), clip, same_name, taken))
+        self._inputs = [*self._inputs, other]
+        return self
+
+    def set_role(self, role, joint):
+        """Says what a joint is in the body, as Joint.role has it: set_role("left_hand", "Hand.L"), set_role("tail:2", "Tail3"). None: nobody
+        is it. Raises ValueError for another word."""
+        return self._take(_bendy.set_role(self._source, f"{role}={'' if joint is None else joint}"))
+
     def extract(self, joint):
         """Keeps the joint with this name and its descendants, with everything that belongs to them."""
         return self._take(_bendy.extract(self._source, joint))

@@ -1,4 +1,6 @@
 #include "bindings.h"
+#include "c_layer.h"
+#include "fields.h"
 #include "reports/conversion.h"
 #include "reports/describe_chunk.h"
 #include "reports/differences.h"
@@ -16,6 +18,7 @@
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
+#include <bendy/motion/retarget_clips.h>
 #include <bendy/runtime/lod.h>
 #include <bendy/text_form/text_form.h>
 
@@ -263,12 +266,32 @@ py::tuple rename_things(const SourcePointer& source, const std::string& kind,
     return edited(source, [&](Bytes bytes, edit::Log& log) { return edit::rename(bytes, rename, log); });
 }
 
+edit::SameName read_same_name(const std::string& word) {
+    const auto rule = edit::parse_same_name(word);
+    if (!rule) throw py::value_error("same_name: " + rule.error().message);
+    return *rule;
+}
+
 py::tuple merge_clips(const SourcePointer& source, const SourcePointer& other, const std::string& same_name) {
     require_bendy(*other);
-    const auto rule = edit::parse_same_name(same_name);
-    if (!rule) throw py::value_error("same_name: " + rule.error().message);
+    const edit::SameName rule = read_same_name(same_name);
     return edited(source,
-                  [&](Bytes bytes, edit::Log& log) { return edit::merge_clips(bytes, other->bytes(), *rule, log); });
+                  [&](Bytes bytes, edit::Log& log) { return edit::merge_clips(bytes, other->bytes(), rule, log); });
+}
+
+py::tuple retarget_clips(const SourcePointer& source, const SourcePointer& other, const std::string& clip,
+                         const std::string& same_name, const c::Of<bendy_retarget_options>& options) {
+    require_bendy(*other);
+    motion::RetargetClips taken{clip, {}, read_same_name(same_name)};
+    capi::from_c(options.value, taken.retarget);
+    return edited(
+        source, [&](Bytes bytes, edit::Log& log) { return motion::retarget_clips(bytes, other->bytes(), taken, log); });
+}
+
+py::tuple set_role(const SourcePointer& source, const std::string& text) {
+    const auto what = edit::parse_role(text);
+    if (!what) throw py::value_error(what.error().message);
+    return edited(source, [&](Bytes bytes, edit::Log& log) { return edit::set_role(bytes, *what, log); });
 }
 
 py::tuple extract_joint(const SourcePointer& source, const std::string& joint) {
@@ -460,6 +483,9 @@ void bind_tools(py::module_& module) {
                py::arg("all_must_match"), "See bendy.Edit.rename.");
     module.def("merge_clips", &merge_clips, py::arg("source"), py::arg("other"), py::arg("same_name"),
                "See bendy.Edit.merge_clips.");
+    module.def("retarget_clips", &retarget_clips, py::arg("source"), py::arg("other"), py::arg("clip"),
+               py::arg("same_name"), py::arg("options"), "See bendy.Edit.retarget_clips.");
+    module.def("set_role", &set_role, py::arg("source"), py::arg("text"), "See bendy.Edit.set_role.");
     module.def("extract", &extract_joint, py::arg("source"), py::arg("joint"), "See bendy.Edit.extract.");
     module.def("change_clips", &change_clips, py::arg("source"), py::arg("word"), py::arg("texts"),
                "See bendy.Edit.trim, and others.");

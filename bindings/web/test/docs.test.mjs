@@ -1,4 +1,4 @@
-// Every JavaScript block of the guide and of docs/languages.md runs.
+// Every JavaScript block of the guide, of docs/languages.md and of docs/retarget.md runs.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { copyFileSync, mkdirSync, readFileSync, renameSync, symlinkSync, writeFileSync } from 'node:fs';
@@ -54,8 +54,10 @@ test('the sizes in docs/web.md are the limits of scripts/web.sh', () => {
   assert.deepEqual(new Set(sizes), new Set(limits));
 });
 
-const blocks = blocksOf('docs/web.md');
-test('the guide has blocks', () => assert.ok(blocks.length >= 6));
-blocks.forEach((code, number) => {
-  test(`block ${number + 1} of docs/web.md`, () => run(`block${number}.mjs`, code));
-});
+for (const [page, fewest] of [['docs/web.md', 6], ['docs/retarget.md', 1]]) {
+  const blocks = blocksOf(page);
+  test(`${page} has blocks`, () => assert.ok(blocks.length >= fewest));
+  blocks.forEach((code, number) => {
+    test(`block ${number + 1} of ${page}`, () => run(`block${number}.mjs`, code));
+  });
+}

@@ -196,6 +196,8 @@ for (const file of examples) {
       [await tools.extract(bytes, joint), ['--extract', joint]],
       [await tools.changeClips(bytes, 'resample', '*@12'), ['--resample', '*@12']],
       [await tools.changeClips(bytes, 'keep-clip', ['#0']), ['--keep-clip', '#0']],
+      [await tools.setRole(bytes, 'tail:2', joint), ['--role', `tail:2=${joint}`]],
+      [await tools.setRole(bytes, 'hips', null), ['--role', 'hips=']],
       [await tools.limitInfluences(bytes, 2), ['--influences', '2']],
       [await tools.mergeClips(bytes, bytes, { sameName: 'number' }), ['--same-name', 'number', '--merge', exact]],
     ];
@@ -206,6 +208,7 @@ for (const file of examples) {
     await assert.rejects(tools.mergeClips(bytes, bytes), { kind: 'edit', code: 'EDIT' });
     await assert.rejects(tools.strip(bytes, 'hats'), { kind: 'bad_argument' });
     await assert.rejects(tools.changeClips(bytes, 'trim', 'Run'), { kind: 'bad_argument' });
+    await assert.rejects(tools.setRole(bytes, 'nose', joint), { kind: 'bad_argument' });
   });
 
   test(`${name}: differences are the program's`, async () => {
@@ -227,6 +230,46 @@ for (const file of examples) {
     }
   });
 }
+
+/** Lengthens the shins of a text form. */
+function lengthen(parts) {
+  for (const [id, content] of parts.flatMap(Object.entries)) {
+    if (id === 'SKIN' && /(Left|Right)Foot$/.test(content[0].NAME ?? '')) {
+      const { REST } = content.find((part) => 'PIVO' in part).PIVO[0];
+      REST.translation = REST.translation.map((number) => 1.3 * number);
+    }
+    if (['HEAD', 'OBJE', 'SKIN'].includes(id)) lengthen(content);
+  }
+}
+
+test('clips are retargeted as by the program', async () => {
+  const exact = join(folder, 'source.bendy');
+  native('convert', '-q', join(repository, 'examples/mannequin.glb'), '-o', exact);
+  const source = read(exact);
+  const text = JSON.parse(await tools.dump(source));
+  lengthen(text.HEAD);
+  const { bytes } = await tools.strip(await tools.assemble(JSON.stringify(text)), 'clip:Walk');
+  const tall = join(folder, 'tall.bendy');
+  writeFileSync(tall, bytes);
+  for (const [options, args] of [
+    [{ clip: 'Wal*' }, ['--retarget', `${exact}:Wal*`]],
+    [{ sameName: 'number' }, ['--retarget', exact, '--same-name', 'number']],
+    [{ clip: 1, obeyConstraints: false, plantsFeet: false }, ['--retarget', `${exact}:1`, '--ignore-constraints', '--free-feet']],
+    [{ clip: 'Walk', restPoses: 'alike' }, ['--retarget', `${exact}:Walk`, '--rests-alike']],
+  ]) {
+    const edited = await tools.retargetClips(bytes, source, options);
+    assertSameBytes(edited.bytes, nativeBytes('.bendy', 'edit', '-q', tall, ...args), args.join(' '));
+    assert.ok(edited.done.some((line) => line.startsWith('retargeted clip "Walk"') && line.includes('off by')), edited.done.join());
+  }
+  await assert.rejects(tools.retargetClips(bytes, source), { kind: 'edit', message: /"Idle"/ });
+  await assert.rejects(tools.retargetClips(bytes, source, { clip: 'Wlak' }), { kind: 'edit', message: /Wlak/ });
+  for (const wrong of [{ restPoses: 'magic' }, { sameName: 'magic' }, { plantsFeet: 'no' }]) {
+    await assert.rejects(tools.retargetClips(bytes, source, { clip: 'Walk', ...wrong }), { kind: 'bad_argument' });
+  }
+  await assert.rejects(tools.retargetClips(bytes, read(join(repository, 'examples/mannequin.glb'))), { kind: 'malformed' });
+  const { bytes: tentacle } = await tools.convert(read(join(repository, 'examples/tentacle.glb')));
+  await assert.rejects(tools.retargetClips(bytes, tentacle), { message: /the source does not say what its joints are/ });
+});
 
 test('broken files have the faults that they are to have', async (context) => {
   const conformance = join(repository, 'tests/conformance');

@@ -21,6 +21,7 @@
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
+#include <bendy/motion/retarget_clips.h>
 #include <bendy/runtime.h>
 #include <bendy/text_form/text_form.h>
 
@@ -287,6 +288,26 @@ Json run_merge_clips(const Json& request, Made& made) {
                   [&](Bytes bytes, edit::Log& log) { return edit::merge_clips(bytes, other.bytes(), same_name, log); });
 }
 
+Json run_retarget_clips(const Json& request, Made& made) {
+    motion::RetargetClips options{text_of(request, "clip"), {}, {}};
+    options.same_name = parsed(edit::parse_same_name(text_of(request, "sameName")));
+    RetargetOptions& retarget = options.retarget;
+    const std::string rest_poses = request.value("restPoses", "measured");
+    if (rest_poses != "measured" && rest_poses != "alike") refuse("restPoses must be measured or alike");
+    retarget.rest_poses = rest_poses == "alike" ? RestPoses::alike : RestPoses::measured;
+    retarget.obey_constraints = request.value("obeyConstraints", retarget.obey_constraints);
+    retarget.plants_feet = request.value("plantsFeet", retarget.plants_feet);
+    const MappedFile other = map_bendy(text_of(request, "other"));
+    return edited(request, made, [&](Bytes bytes, edit::Log& log) {
+        return motion::retarget_clips(bytes, other.bytes(), options, log);
+    });
+}
+
+Json run_set_role(const Json& request, Made& made) {
+    const auto what = parsed(edit::parse_role(text_of(request, "text")));
+    return edited(request, made, [&](Bytes bytes, edit::Log& log) { return edit::set_role(bytes, what, log); });
+}
+
 Json run_extract(const Json& request, Made& made) {
     const std::string joint = text_of(request, "joint");
     return edited(request, made, [&](Bytes bytes, edit::Log& log) { return edit::extract(bytes, joint, log); });
@@ -396,6 +417,8 @@ constexpr std::array kTools{Tool{"convert", run_convert},
                             Tool{"strip", run_strip},
                             Tool{"rename", run_rename},
                             Tool{"mergeClips", run_merge_clips},
+                            Tool{"retargetClips", run_retarget_clips},
+                            Tool{"setRole", run_set_role},
                             Tool{"extract", run_extract},
                             Tool{"changeClips", run_change_clips},
                             Tool{"limitInfluences", run_limit_influences},

@@ -25,6 +25,8 @@ import type {
   FileBytes,
   FileDifferences,
   NamedKind,
+  RetargetClipsOptions,
+  SameName,
   Source,
   Summary,
   Warning,
@@ -171,13 +173,27 @@ export function rename(
  *
  * @param options - sameName: what to do if a clip of that name exists; "error" by default
  */
-export function mergeClips(
-  bytes: FileBytes,
-  other: FileBytes,
-  options: { sameName?: 'error' | 'replace' | 'number' } = {},
-): Promise<Edited> {
+export function mergeClips(bytes: FileBytes, other: FileBytes, options: { sameName?: SameName } = {}): Promise<Edited> {
   const request = { do: 'mergeClips', other: 'b.bendy', sameName: options.sameName ?? 'error' };
   return edited(request, { 'a.bendy': asBytes(bytes), 'b.bendy': asBytes(other) });
+}
+
+/**
+ * Puts clips of another bendy file on this character, whatever its build: see docs/retarget.md. Both characters need roles. `done` has
+ * a line for each clip with what had to give way, and `warnings` what is lost.
+ */
+export function retargetClips(bytes: FileBytes, other: FileBytes, options: RetargetClipsOptions = {}): Promise<Edited> {
+  const { clip = '', sameName = 'error', ...others } = options;
+  const request = { ...others, do: 'retargetClips', other: 'b.bendy', clip: String(clip), sameName };
+  return edited(request, { 'a.bendy': asBytes(bytes), 'b.bendy': asBytes(other) });
+}
+
+/**
+ * Says what a joint is in the body, as `Joint.role` has it: `setRole(bytes, 'left_hand', 'Hand.L')`, `setRole(bytes, 'tail:2', 'Tail3')`.
+ * Null: nobody is it.
+ */
+export function setRole(bytes: FileBytes, role: string, joint: string | null): Promise<Edited> {
+  return edited({ do: 'setRole', text: `${role}=${joint ?? ''}` }, { 'a.bendy': asBytes(bytes) });
 }
 
 /** Keeps the joint with this name and its descendants, with everything that belongs to them. */

@@ -1,3 +1,4 @@
+import type { BendyRetargetOptions } from '../generated/bindings.js';
 import type { ProgramOptions } from '../generated/convert_options.js';
 
 /** A file's content. */
@@ -107,6 +108,17 @@ export interface Edited {
 
 /** What can be done with clips: the options of `bendy edit`, described in docs/cli.md. */
 export type ClipWork = 'keep-clip' | 'copy-clip' | 'trim' | 'resample' | 'mirror' | 'loop' | 'root-motion';
+
+/** What to do if a clip of that name exists: reject; replace the existing clip; or number the new one, as in "Run.001". */
+export type SameName = 'error' | 'replace' | 'number';
+
+/** Options of `retargetClips`; those of `Retarget` too. */
+export interface RetargetClipsOptions extends BendyRetargetOptions {
+  /** Which of the other file's clips: a name, a pattern as in "Walk*", or a number; all if not given. */
+  clip?: string | number;
+  /** "error" if not given. */
+  sameName?: SameName;
+}
 
 /** The kinds of things that can be renamed. */
 export type NamedKind = 'joint' | 'clip' | 'chain' | 'mesh' | 'target' | 'material' | 'texture' | 'object';
