@@ -136,6 +136,10 @@ def check_files(runner, folder, bendy, corpus):
         blend, file = folder / f"{character}.blend", folder / f"{character}.bendy"
         bendy("convert", "--quiet", runner.source / "examples" / f"{character}.glb", "-o", file)
         files.append(file)
+        if character == "mannequin":  # roles that nobody would find
+            files.append(folder / "roles.bendy")
+            roles = ("jaw=mixamorig:Neck", "hips=", "tail:3=mixamorig:LeftToeBase", "tail:1=Body")
+            bendy("edit", file, "-o", files[-1], *(f"--role={role}" for role in roles))
         if runner.run(f"{character}: made", f"examples/blender/make_{character}.py", folder / f"{character}.glb", blend):
             runner.run(f"{character}: import", tests / "check_import.py", bendy.program, file, out, blend=blend)
     rig = folder / "strange.rig.json"

@@ -129,6 +129,7 @@ def compare_rigs(first, second):
     for old, new in zip(a['chains'], b['chains']):
         check(old == new, f'{old} is now {new}')
     check(a.get('markers') == b.get('markers'), f'markers {a.get("markers")} are now {b.get("markers")}')
+    check(a.get('roles') == b.get('roles'), f'roles {a.get("roles")} are now {b.get("roles")}')
     check(a.get('curves') == b.get('curves'), f'curves {a.get("curves")} are now {b.get("curves")}')
     return len(a['joints']), len(a['chains']), sum(map(len, a.get('markers', {}).values()))
 

@@ -15,6 +15,7 @@ from .chain_settings import chain_joints, is_helper
 from .ik_chains import chain_record, ik_constraints
 from .joint_limits import joint_record, says_a_limit
 from .kept_records import CLIP, CONSTRAINTS, CURVES, in_radians, kept, kept_chains, kept_markers, without_kept
+from .roles import add_role
 from .shortcomings import all_curves, bone_notes, chain_notes, object_notes
 
 
@@ -68,6 +69,7 @@ class RigExtras:
         if not isinstance(bone, bpy.types.PoseBone) or node.name != bone.name:
             return                  # an added leaf
         node.extras = without_kept(node.extras)
+        self.report.add_notes(bone.name, add_role(node, bone))
         self.rigs[bone.id_data.name] = bone.id_data
         self.joint_nodes.setdefault(bone.id_data.name, {}).setdefault(bone.name, []).append(node)
 
@@ -84,7 +86,7 @@ class RigExtras:
         if obj.type == 'ARMATURE':
             self.rigs[obj.name] = obj
             self.rig_nodes.setdefault(obj.name, node)
-        self.report.add_notes(obj.name, object_notes(obj))
+        self.report.add_notes(obj.name, object_notes(obj) + add_role(node, obj))
 
     @kept_error
     def gather_scene_hook(self, scene, _, *rest):

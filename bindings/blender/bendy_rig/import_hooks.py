@@ -5,6 +5,7 @@
 import bpy
 
 from . import clip_curves
+from .roles import keep_role
 
 RIG_EXTRAS = ('rig_joint', 'rig_ik')        # of nodes: written by an earlier export, and replaced by the next one
 
@@ -90,6 +91,7 @@ def note_joints(gltf, file):
         owner = gltf.vnodes[vnode.bone_arma] if is_bone else vnode
         file.joints.append((owner.blender_object, vnode.blender_bone_name if is_bone else None))
         file.names.append(node.name or '')
+        keep_role(owner.blender_object.pose.bones[vnode.blender_bone_name] if is_bone else vnode.blender_object, node)
         skinned = gltf.vnodes.get(f'{joint}.skinned')
         if skinned and not is_bone and not vnode.children and not moves(gltf, node):
             file.twins.append((joint, skinned.blender_object))

@@ -14,6 +14,7 @@ CHAINS = 'bendy_chains'             # of an armature object: [{"record": a chain
 MARKERS = 'bendy_markers'           # of an action: [{"time": seconds, "name": text}]
 CLIP = 'bendy_clip'                 # of an action: the number of its clip, because the exporter sorts clips by name
 CURVES = 'bendy_curves'             # of an object: the list of the file's curves
+ROLE = 'bendy_role'                 # of a pose bone or an object: what it is in the body, 'leftHand' or 'tail:2'
 REST = 'bendy_rest'                 # of an object or shape keys that clips move: data path -> the values of the rest pose
 ANGLES = ('x', 'y', 'z', 'angle', 'preferred', 'soft_zone', 'pole_angle')       # degrees in a rig file, radians in extras
 
@@ -33,7 +34,7 @@ def kept(owner, key):
 def without_kept(extras):
     """The extras that the exporter made from an owner's custom properties, without those of this module."""
     left = {key: value for key, value in (extras or {}).items()
-            if key not in (CONSTRAINTS, CHAINS, MARKERS, CLIP, CURVES, REST, chain_settings.HELPER)}
+            if key not in (CONSTRAINTS, CHAINS, MARKERS, CLIP, CURVES, ROLE, REST, chain_settings.HELPER)}
     return left or None
 
 

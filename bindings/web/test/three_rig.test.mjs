@@ -53,6 +53,24 @@ test('a chain and its limits reach CCDIKSolver', async () => {
   assert.ok(rotationMin.distanceTo(new THREE.Vector3(0, 0, 0)) < 1e-9 && rotationMax.distanceTo(new THREE.Vector3(2.6, 0, 0)) < 1e-9);
 });
 
+test('roles lead to their objects, a chain\'s from the body outwards', async (t) => {
+  const { scene, userData } = await load(sample('arm.gltf'));
+  assert.deepEqual([...userData.rig.roles], [['leftHand', [scene.getObjectByName('Hand')]]]);
+  const gltf = sample('arm.gltf');
+  const give = (name, extension) => {
+    gltf.nodes.find((node) => node.name === name).extensions = { BENDY_joint_role: extension };
+  };
+  give('Hand', { role: 'tail', place: 0 });
+  give('UpperArm', { role: 'tail', place: 3 });
+  give('LowerArm', { role: 'tail', place: 2 });
+  give('HandTarget', { place: 2 });
+  const warned = await warnings(t, async () => {
+    const { scene, userData } = await load(gltf);
+    assert.deepEqual(userData.rig.roles.get('tail'), ['Hand', 'LowerArm', 'UpperArm'].map((name) => scene.getObjectByName(name)));
+  });
+  assert.equal(warned.filter((text) => /nodes\[\d\]\.extensions\.BENDY_joint_role left out/.test(text)).length, 1);
+});
+
 test('the hand reaches where the limits let it, and the elbow stays a hinge', async () => {
   const { scene, userData } = await load(sample('arm.gltf'));
   const { mesh, iks, targets } = userData.rig;

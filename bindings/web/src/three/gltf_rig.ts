@@ -14,13 +14,15 @@ export interface GltfChain {
   blendFactor?: number;
 }
 
-/** The limits and IK chains of a glTF file, for three.js's CCDIKSolver: `new CCDIKSolver(rig.mesh, rig.iks)`. */
+/** The limits and IK chains of a glTF file, for three.js's CCDIKSolver: `new CCDIKSolver(rig.mesh, rig.iks)`; and what joints are. */
 export interface GltfRig {
   /** Draws nothing. The bones of its skeleton are the objects of all chains. */
   readonly mesh: SkinnedMesh;
   readonly iks: GltfChain[];
   /** The object that each chain reaches for, by the chain's name: its target in the file, or an object made for it at the tip. */
   readonly targets: ReadonlyMap<string, Object3D>;
+  /** What the objects are in the body, by the words of BENDY_joint_role: one for `leftHand`, all of a `tail` from the body outwards. */
+  readonly roles: ReadonlyMap<string, readonly Object3D[]>;
 }
 
 type Json = Record<string, unknown>;
@@ -31,8 +33,8 @@ const usualIterations = 10;
 const isObject = (value: unknown): value is Json => typeof value === 'object' && value !== null && !Array.isArray(value);
 
 /**
- * Reads BENDY_joint_limits and BENDY_ik_chains, which `bendy export` writes, into `userData.rig` of what GLTFLoader returns. What
- * is faulty is left out, with a warning on the console.
+ * Reads BENDY_joint_limits, BENDY_joint_role and BENDY_ik_chains, which `bendy export` writes, into `userData.rig` of what GLTFLoader
+ * returns. What is faulty is left out, with a warning on the console.
  *
  *     const { scene, userData } = await new GLTFLoader().register((parser) => new GltfRigPlugin(parser)).loadAsync('fox.glb');
  *     const solver = new CCDIKSolver(userData.rig.mesh, userData.rig.iks);
@@ -80,7 +82,29 @@ class RigReader {
     }
     const mesh = new SkinnedMesh();
     mesh.skeleton = new Skeleton(this.#bones as Bone[]);
-    return { mesh, iks, targets: this.#targets };
+    return { mesh, iks, targets: this.#targets, roles: this.#roles() };
+  }
+
+  #roles(): Map<string, Object3D[]> {
+    const found: { role: string; place: number; object: Object3D }[] = [];
+    this.scene.traverse((object) => {
+      const [number, extension] = this.#extension(object, 'BENDY_joint_role');
+      if (!isObject(extension)) return;
+      const { role, place = 0 } = extension;
+      if (typeof role === 'string' && Number.isInteger(place)) found.push({ role, place: place as number, object });
+      else console.warn(`GltfRigPlugin: nodes[${number}].extensions.BENDY_joint_role left out: a word and a whole number are expected`);
+    });
+    const roles = new Map<string, Object3D[]>();
+    for (const { role, object } of found.sort((a, b) => a.place - b.place)) roles.set(role, [...(roles.get(role) ?? []), object]);
+    return roles;
+  }
+
+  /** The number of an object's node, and an extension of that. */
+  #extension(object: Object3D, name: string): [number: number | undefined, extension: unknown] {
+    const number = this.parser.associations.get(object)?.nodes;
+    const node = number === undefined ? undefined : this.#nodes[number];
+    const extensions = isObject(node) ? node['extensions'] : undefined;
+    return [number, isObject(extensions) ? extensions[name] : undefined];
   }
 
   /** Null if nothing of the chain can turn. */
@@ -146,10 +170,7 @@ class RigReader {
 
   /** The limit that a joint has for IK. Its object takes the order of the Euler angles; its rotation stays as it is. */
   #boxOf(joint: Object3D): EulerBox | null {
-    const number = this.parser.associations.get(joint)?.nodes;
-    const node = number === undefined ? undefined : this.#nodes[number];
-    const extensions = isObject(node) ? node['extensions'] : undefined;
-    const extension = isObject(extensions) ? extensions['BENDY_joint_limits'] : undefined;
+    const [number, extension] = this.#extension(joint, 'BENDY_joint_limits');
     const limits = isObject(extension) && Array.isArray(extension['limits']) ? extension['limits'].filter(isObject) : [];
     const limit = limits.find(({ scope }) => scope === 'ikOnly') ?? limits.find(({ scope }) => (scope ?? 'everyPose') === 'everyPose');
     if (limit === undefined) return null;
