@@ -1,5 +1,6 @@
 // What moves a character: its own clips, or those of another one.
-import { type Clip, CrossFade, type Model, Playback, type Pose, Retarget, RetargetState } from '../src/index.js';
+import { type Clip, CrossFade, type Model, Playback, type Pose } from '../src/index.js';
+import { Borrowed } from '../src/three/borrowed.js';
 
 /** Plays the clips of a model, one after another, into a pose. */
 export class Motion {
@@ -63,31 +64,29 @@ export class Motion {
 
 /** Plays the clips of another model on the pose of a character. Owns the other model. */
 export class BorrowedMotion extends Motion {
-  readonly #retarget: Retarget;
-  readonly #state: RetargetState;
+  readonly #borrowed: Borrowed;
   readonly #target: Pose;
 
   /** Throws BAD_ARGUMENT if one of the two lacks roles. */
   constructor(source: Model, target: Pose) {
-    const retarget = new Retarget(source, target.model);
-    super(source, source.pose());
-    this.#retarget = retarget;
-    this.#state = new RetargetState(source.runtime);
+    const borrowed = new Borrowed(source, target.model);
+    super(source, borrowed.pose);
+    this.#borrowed = borrowed;
     this.#target = target;
   }
 
   override seek(share: number): void {
     super.seek(share);
-    this.#state.reset();
+    this.#borrowed.reset();
   }
 
   override update(seconds: number): void {
     super.update(seconds);
-    this.#retarget.apply(this.#target, this.pose, this.#state);
+    this.#borrowed.apply(this.#target);
   }
 
   override dispose(): void {
     super.dispose();
-    for (const one of [this.#retarget, this.#state, this.pose, this.model]) one.dispose();
+    this.#borrowed.dispose();
   }
 }

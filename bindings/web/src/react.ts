@@ -13,6 +13,7 @@ import './viewer/index.js';
 /** What `BendyViewer` takes, beside what every element takes. The attributes are those of the element. */
 export interface BendyViewerProps extends Omit<HTMLAttributes<HTMLElement>, 'onLoad' | 'onError' | 'onProgress' | 'children'> {
   src: string;
+  motions?: string | undefined;
   clip?: string | undefined;
   poster?: string | undefined;
   alt?: string | undefined;

@@ -13,7 +13,7 @@ import * as THREE from 'three';
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { clone } from 'three/addons/utils/SkeletonUtils.js';
-import { BendyError } from '../dist/index.js';
+import { BendyError, Model, Retarget, RetargetState } from '../dist/index.js';
 import { BendyAnimator, BendyLoader, cloneCharacter, setLevelOfDetail } from '../dist/three/index.js';
 
 const repository = fileURLToPath(new URL('../../../', import.meta.url));
@@ -684,6 +684,37 @@ test('errors are BendyErrors', async () => {
   await new Promise((resolve) => new BendyLoader(manager).load(`${address}nothing.bendy`, assert.fail, undefined, resolve));
   await new Promise((resolve) => setTimeout(resolve));
   assert.ok(events.includes('error') && events.includes('load'));
+});
+
+test('an animator plays the clips of another human, and its own again', async () => {
+  const file = path.join(folder, 'dancer.bendy');
+  execFileSync(program, ['convert', '-q', path.join(repository, 'examples/mannequin.glb'), '-o', file]);
+  const other = path.join(folder, 'knight.bendy');
+  execFileSync(program, ['edit', '-q', file, '-o', other, '--strip', 'clip:Walk', '--rename-joint', 'mixamorig:*=b_*']);
+  const [dancer, knight] = [fs.readFileSync(file), fs.readFileSync(other)];
+  const character = await new BendyLoader().parseAsync(knight);
+  const animator = new BendyAnimator(character).play('Idle');
+  const source = await Model.open(dancer);
+  assert.equal(animator.borrow(source).borrow(source), animator);
+  assert.deepEqual(animator.clips.map(({ name }) => name), ['Idle', 'Walk']);
+  animator.play('Walk').update(0.3);
+  const expected = character.model.pose();
+  new Retarget(source, character.model).apply(expected, source.sample('Walk', 0.3), new RetargetState(source.runtime));
+  assert.deepEqual(animator.pose.locals, expected.locals);
+  assert.deepEqual(character.joints[5].quaternion.toArray().map(Math.fround), expected.local(5).rotation);
+
+  const bare = await Model.open(execFileSync(program, ['edit', '-q', file, '-o', '-', '--strip', 'roles'], { maxBuffer: 1 << 26 }));
+  assert.throws(() => animator.borrow(bare), { code: 'BAD_ARGUMENT', message: /the source does not say what its joints are/ });
+  assert.equal(animator.clips.length, 2, 'nothing has changed');
+  assert.equal(bare.clips.length, 2);
+
+  assert.deepEqual(animator.borrow(null).clips.map(({ name }) => name), ['Idle']);
+  assert.throws(() => source.pose(), { code: 'DISPOSED' });
+  animator.play('Idle').update(0.2);
+  assert.deepEqual(animator.pose.locals, character.model.sample('Idle', 0.2).locals);
+  animator.stop().update(0.2);
+  assert.deepEqual(animator.pose.locals, character.model.pose().locals);
+  animator.borrow(await Model.open(dancer)).dispose();
 });
 
 test('images stay undecoded without a browser', { skip }, async () => {

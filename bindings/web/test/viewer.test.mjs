@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { after, before, beforeEach, test } from 'node:test';
 import axe from 'axe-core';
 import { launch, openTab, serve, skip } from './browser.mjs';
-import { example, repository } from './helpers.mjs';
+import { bendy, example, folder, repository } from './helpers.mjs';
 
 const bundle = readFileSync(new URL('../dist/bundle/bendy-viewer.js', import.meta.url));
 const poster = readFileSync(`${repository}/docs/pictures/mannequin.png`);
@@ -15,7 +15,9 @@ let browser, server, tab, problems;
 
 before(async () => {
   if (skip) return;
-  const files = { 'mannequin.bendy': readFileSync(example('mannequin')), 'tentacle.bendy': readFileSync(example('tentacle')) };
+  const [mannequin, other] = [example('mannequin'), `${folder}/other.bendy`];
+  bendy(['edit', mannequin, '-o', other, '--strip', 'clips', '--rename-joint', 'mixamorig:*=b_*']);
+  const files = { 'mannequin.bendy': readFileSync(mannequin), 'other.bendy': readFileSync(other), 'tentacle.bendy': readFileSync(example('tentacle')) };
   server = await serve({ 'index.html': page, 'bendy-viewer.js': bundle, 'poster.png': poster, 'broken.bendy': 'this is no character', ...files });
   browser = await launch();
 });
@@ -169,6 +171,42 @@ test('attributes change what is shown', { skip }, async () => {
   await frames(2);
   assert.ok((await drawn()) > 100, 'at rest');
   assert.deepEqual(problems, []);
+});
+
+test('it plays the clips of another file, and its own again', { skip }, async () => {
+  const hand = () => tab.evaluate(() => viewer.character.scene.getObjectByName('b_LeftArm').quaternion.toArray().join());
+  assert.deepEqual(await show({ src: 'other.bendy', motions: 'mannequin.bendy', clip: 'Walk' }), { type: 'load' });
+  assert.deepEqual(server.requests.toSorted(), ['mannequin.bendy', 'other.bendy']);
+  assert.deepEqual(await tab.evaluate(() => viewer.clips), ['Idle', 'Walk']);
+  const first = await hand();
+  await frames(5);
+  assert.notEqual(await hand(), first);
+  const changed = (change) => tab.evaluate(async (text) => {
+    const names = () => viewer.clips.join();
+    const before = names();
+    Object.assign(viewer, JSON.parse(text));
+    while (names() === before) await new Promise((resolve) => setTimeout(resolve, 10));
+    return names();
+  }, JSON.stringify(change));
+  assert.equal(await changed({ clip: null, motions: null }), '', 'it has none of its own');
+  assert.equal(await changed({ motions: 'mannequin.bendy' }), 'Idle,Walk');
+  await tab.evaluate(() => (viewer.clip = ''));
+  await frames(2);
+  const still = await hand();
+  await frames(3);
+  assert.equal(await hand(), still, 'at rest');
+  assert.deepEqual(await tab.evaluate(() => seen.filter(([type]) => type === 'error').length), 0);
+  assert.deepEqual(problems, []);
+
+  const failing = async (motions) => {
+    await tab.evaluate((address) => {
+      globalThis.failed = new Promise((resolve) => viewer.addEventListener('error', (event) => resolve(event.detail.kind), { once: true }));
+      viewer.motions = address;
+    }, motions);
+    return tab.evaluate(async () => [await failed, viewer.clips.length]);
+  };
+  assert.deepEqual(await failing('tentacle.bendy'), ['bad_argument', 0]);
+  assert.deepEqual(await failing('broken.bendy'), ['malformed', 0]);
 });
 
 test('what fails is an event with a BendyError', { skip }, async () => {

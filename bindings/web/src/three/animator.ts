@@ -16,13 +16,16 @@ import {
   type Chain,
   type Clip,
   CrossFade,
+  type Items,
   type Key,
+  type Model,
   type Pose,
   type ReachOptions,
   type ReachResult,
   type SkinOptions,
 } from '../index.js';
 import { type ClipOptions, startClip } from '../engines/player.js';
+import { Borrowed } from './borrowed.js';
 import type { BendyCharacter } from './character.js';
 import { withIndex } from './parts.js';
 
@@ -82,7 +85,8 @@ export class BendyAnimator {
   readonly character: BendyCharacter;
   /** The current pose, for anything that the methods here do not offer. */
   readonly pose: Pose;
-  readonly #fade: CrossFade;
+  #fade: CrossFade; // of the model whose clips play
+  #borrowed: Borrowed | null = null;
   readonly #other: Pose;
   readonly #method: NonNullable<SkinOptions['method']>;
   readonly #skinned: Skinned[] = [];
@@ -114,6 +118,34 @@ export class BendyAnimator {
   /** Starts a clip, which `update` plays and which fades in over what plays now. Throws NOT_FOUND, BAD_ARGUMENT. */
   play(clip: Key<Clip>, options: AnimatorPlayOptions = {}): this {
     startClip(this.#fade, clip, options);
+    return this;
+  }
+
+  /** The clips that `play` starts: those of the character, or those that it borrows. */
+  get clips(): Items<Clip> {
+    return this.#fade.model.clips;
+  }
+
+  /**
+   * From now on, `play` starts the clips of another model, which the character plays whatever its build, as `Retarget` does it; null: its
+   * own again. What plays ends. The animator owns `source` and disposes of it with the next one, or at the end; if it throws, nothing
+   * has changed and `source` is the caller's. Throws BAD_ARGUMENT if a joint lacks its role.
+   */
+  borrow(source: Model | null): this {
+    if (source !== null && source === this.#borrowed?.model) return this;
+    const borrowed = source === null ? null : new Borrowed(source, this.character.model);
+    const fade = new CrossFade(source ?? this.character.model);
+    this.#endPlaying();
+    [this.#fade, this.#borrowed] = [fade, borrowed];
+    return this;
+  }
+
+  /** Ends what plays, and sets the pose to rest. */
+  stop(): this {
+    const { model } = this.#fade;
+    this.#fade.dispose();
+    this.#fade = new CrossFade(model);
+    this.pose.reset();
     return this;
   }
 
@@ -149,7 +181,10 @@ export class BendyAnimator {
    * nothing plays, the pose stays, and is written.
    */
   update(seconds: number, adjust?: (animator: this) => void): this {
-    if (this.#fade.playing.length > 0) this.#fade.advance(seconds).sample(this.pose);
+    if (this.#fade.playing.length > 0) {
+      this.#fade.advance(seconds).sample(this.#borrowed?.pose ?? this.pose);
+      this.#borrowed?.apply(this.pose);
+    }
     adjust?.(this);
     return this.apply();
   }
@@ -194,9 +229,14 @@ export class BendyAnimator {
     }
     this.#skinned.length = 0;
     this.#attributes.clear();
-    this.#fade.dispose();
+    this.#endPlaying();
     this.#other.dispose();
     this.pose.dispose();
+  }
+
+  #endPlaying(): void {
+    this.#fade.dispose();
+    this.#borrowed?.dispose();
   }
 
   /**

@@ -1,4 +1,4 @@
-import { BendyError } from '../index.js';
+import { BendyError, Model } from '../index.js';
 import { type BendyCharacter, BendyLoader, type BendyAnimator } from '../three/index.js';
 import { orbitKeys } from './orbit.js';
 import { Stage } from './stage.js';
@@ -43,12 +43,13 @@ const BaseElement = (globalThis.HTMLElement ?? class {}) as typeof HTMLElement;
 /**
  * An element that shows a character. It loads when it comes near the visible part of the page, and draws only while something moves.
  *
- * Attributes, which are properties too: `src`, the address of the file; `clip`, by name or number, the first one if absent, at rest
- * if empty; `poster`, an image to show until then; `alt`, a description; `camera-controls` (`cameraControls`), whether pointer, wheel and keys turn
- * the camera; `paused`, whether time stands still. If the reader prefers reduced motion, it starts paused, and `play` plays.
+ * Attributes, which are properties too: `src`, the address of the file; `motions`, the address of another file, whose clips the character
+ * plays in place of its own, whatever its build, if the joints of both have roles; `clip`, by name or number, the first one if absent,
+ * at rest if empty; `poster`, an image to show until then; `alt`, a description; `camera-controls` (`cameraControls`), whether pointer,
+ * wheel and keys turn the camera; `paused`, whether time stands still. If the reader prefers reduced motion, it starts paused, and `play` plays.
  */
 export class BendyViewerElement extends BaseElement {
-  static readonly observedAttributes = ['src', 'clip', 'poster', 'alt', 'camera-controls', 'paused'];
+  static readonly observedAttributes = ['src', 'motions', 'clip', 'poster', 'alt', 'camera-controls', 'paused'];
   #canvas: HTMLCanvasElement;
   readonly #poster: HTMLImageElement;
   readonly #near = typeof IntersectionObserver === 'undefined' ? undefined : new IntersectionObserver((seen) => this.#seen(seen), { rootMargin: '200px' });
@@ -56,6 +57,7 @@ export class BendyViewerElement extends BaseElement {
   #stage: Stage | null = null;
   #character: BendyCharacter | null = null;
   #wanted: object | null = null; // stands for the file that is shown or on its way
+  #isLoading = false;
   #isNear = false;
 
   constructor() {
@@ -80,6 +82,13 @@ export class BendyViewerElement extends BaseElement {
   }
   set src(src: string) {
     this.#set('src', src);
+  }
+
+  get motions(): string {
+    return this.getAttribute('motions') ?? '';
+  }
+  set motions(motions: string) {
+    this.#set('motions', motions);
   }
 
   /** Null if absent: the first clip. */
@@ -128,9 +137,9 @@ export class BendyViewerElement extends BaseElement {
     return this.#stage?.animator ?? null;
   }
 
-  /** The names of the character's clips. */
+  /** The names of the clips that the character plays: its own, or those of `motions`. */
   get clips(): string[] {
-    return this.#character === null ? [] : this.#character.model.clips.map(({ name }) => name);
+    return this.animator?.clips.map(({ name }) => name) ?? [];
   }
 
   /** The camera's angles in radians: `theta` around the vertical from the front, `phi` from straight above. */
@@ -161,8 +170,9 @@ export class BendyViewerElement extends BaseElement {
   attributeChangedCallback(name: string): void {
     if (name === 'src') {
       this.#wanted = null;
-      this.#load();
-    } else if (name === 'clip') this.#play(0.3);
+      void this.#load();
+    } else if (name === 'motions') void this.#changeMotions();
+    else if (name === 'clip') this.#play(0.3);
     else if (name === 'poster') this.#showPoster();
     else if (name === 'alt') this.#describe();
     else if (name === 'camera-controls') this.#control();
@@ -184,7 +194,7 @@ export class BendyViewerElement extends BaseElement {
     this.#near?.disconnect();
     this.#sizes?.disconnect();
     this.#wanted = null;
-    this.#isNear = false;
+    this.#isNear = this.#isLoading = false;
     if (this.#stage === null) return;
     this.#stage.dispose();
     [this.#stage, this.#character] = [null, null];
@@ -219,7 +229,7 @@ export class BendyViewerElement extends BaseElement {
   #seen(seen: readonly IntersectionObserverEntry[]): void {
     this.#isNear = seen.at(-1)!.isIntersecting;
     if (this.#stage !== null) this.#stage.visible = this.#isNear;
-    this.#load();
+    void this.#load();
   }
 
   #resize(): void {
@@ -231,30 +241,77 @@ export class BendyViewerElement extends BaseElement {
     this.dispatchEvent(new CustomEvent('error', { detail: failure }));
   }
 
-  #load(): void {
+  /** Null if there are none, or if they cannot be opened. */
+  async #openMotions(): Promise<Model | null> {
+    const { motions } = this;
+    if (motions === '') return null;
+    try {
+      return await Model.open(motions);
+    } catch (error) {
+      if (motions === this.motions) this.#fail(error);
+      return null;
+    }
+  }
+
+  async #changeMotions(): Promise<void> {
+    const { animator, motions } = this;
+    if (animator === null || this.#isLoading) return; // what is on its way will have them
+    const source = await this.#openMotions();
+    if (animator !== this.animator || motions !== this.motions || this.#isLoading) return source?.dispose();
+    this.#borrow(source);
+    this.#play(0);
+  }
+
+  #borrow(source: Model | null): void {
+    try {
+      this.animator!.borrow(source);
+    } catch (error) {
+      source?.dispose();
+      this.animator!.borrow(null);
+      this.#fail(error);
+    }
+  }
+
+  async #load(): Promise<void> {
     if (!this.#isNear || this.#wanted !== null) return;
     const wanted = (this.#wanted = {});
-    this.#set('aria-busy', this.src === '' ? null : 'true', this.#canvas);
+    this.#setLoading(this.src !== '');
     if (this.src === '') return this.#show(null);
     const isCurrent = (): boolean => this.#wanted === wanted;
     const progress = ({ loaded, total }: ViewerProgress): void => {
       if (isCurrent()) this.dispatchEvent(new CustomEvent('progress', { detail: { loaded, total } }));
     };
-    new BendyLoader().loadAsync(this.src, progress).then(
-      (character) => {
-        if (!isCurrent()) return character.model.dispose();
-        this.#set('aria-busy', null, this.#canvas);
-        this.#show(character);
-      },
-      (error: unknown) => {
-        if (!isCurrent()) return;
-        this.#set('aria-busy', null, this.#canvas);
-        this.#fail(error);
-      },
-    );
+    let { motions } = this;
+    const opening = this.#openMotions(); // at the same time
+    let character: BendyCharacter | null = null;
+    let failure: unknown = null;
+    try {
+      character = await new BendyLoader().loadAsync(this.src, progress);
+    } catch (error) {
+      failure = error;
+    }
+    let source = await opening;
+    while (isCurrent() && motions !== this.motions) {
+      source?.dispose();
+      ({ motions } = this);
+      source = await this.#openMotions();
+    }
+    if (!isCurrent() || character === null) {
+      character?.model.dispose();
+      source?.dispose();
+    }
+    if (!isCurrent()) return;
+    this.#setLoading(false);
+    if (character === null) this.#fail(failure);
+    else this.#show(character, source);
   }
 
-  #show(character: BendyCharacter | null): void {
+  #setLoading(is: boolean): void {
+    this.#isLoading = is;
+    this.#set('aria-busy', is ? 'true' : null, this.#canvas);
+  }
+
+  #show(character: BendyCharacter | null, motions: Model | null = null): void {
     try {
       if (this.#stage === null) {
         if (character === null) return;
@@ -263,9 +320,11 @@ export class BendyViewerElement extends BaseElement {
       this.#stage.show(character);
     } catch (error) {
       character?.model.dispose();
+      motions?.dispose();
       return this.#fail(error);
     }
     this.#character = character;
+    if (motions !== null) this.#borrow(motions);
     this.#control();
     this.#stage.playing = !this.paused;
     this.#resize();
@@ -277,8 +336,7 @@ export class BendyViewerElement extends BaseElement {
   #play(fade: number): void {
     const animator = this.animator;
     if (animator === null) return;
-    const { model } = animator.character;
-    const clip = this.clip ?? (model.clips.length > 0 ? 0 : '');
+    const clip = this.clip ?? (animator.clips.length > 0 ? 0 : '');
     try {
       if (clip === '') this.#stage!.rest();
       else animator.play(clip, { fade });

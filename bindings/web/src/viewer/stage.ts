@@ -66,9 +66,7 @@ export class Stage {
 
   /** Stops what plays, and sets the character to rest. */
   rest(): void {
-    if (this.#character === null) return;
-    this.#animator?.dispose();
-    this.#animator = new BendyAnimator(this.#character);
+    this.#animator?.stop();
     this.draw();
   }
 
