@@ -195,6 +195,7 @@ TEST(RetargetClips, FeetAreOnTheGroundByCurvesThatCanBeEdited) {
     const test::Owned model(made);
     const Clip& clip = *model->clip("Step");
     ASSERT_EQ(clip.curves.size(), 4u);
+    EXPECT_EQ(clip.curves[0].path, "/extras/" + std::string(clip.curves[0].name));  // so that glTF can hold it
     float weight = -1.0f;
     ASSERT_TRUE(sample_curve(*find_curve(clip, "left_heel_contact"), 0.0, std::span(&weight, 1)));
     EXPECT_EQ(weight, 1.0f);

@@ -212,6 +212,7 @@ private:
     [[nodiscard]] bool is_trunk(std::size_t joint) const {
         return std::any_of(source_.roles().begin(), source_.roles().end(), [&](const JointRole& one) {
             const auto role = static_cast<Role>(one.role);
+            const std::string path = std::string("/extras/") + kContactNames[contact.contact];  // as spec/rig.md has it
             return one.joint == joint && ((role >= Role::hips && role <= Role::head) || role == Role::spine_chain ||
                                           role == Role::neck_chain);
         });

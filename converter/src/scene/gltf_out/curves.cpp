@@ -92,7 +92,9 @@ public:
             if (is_written_already(curve)) continue;
             const std::string pointer = pointer_to(curve);
             if (pointer.empty() || !open_parent(root_, pointer)) {
-                report_.warn("curve left out: the file has no " + quote(pointer.empty() ? curve.path : pointer),
+                report_.warn(curve.path.empty()
+                                 ? "curve left out: " + quote(curve.name) + " has no path, which glTF needs"
+                                 : "curve left out: the file has no " + quote(pointer.empty() ? curve.path : pointer),
                              place + '.' + at("curves", c));
                 continue;
             }
