@@ -290,6 +290,14 @@ TEST(RetargetClips, SaysWhatIsMissing) {
     EXPECT_TRUE(missing.starts_with("the target has no joint for ")) << missing;
     EXPECT_NE(missing.find("{\"bendy_rig\": 1, \"roles\": {\"left_foot\": \"NAME\"}}"), std::string::npos) << missing;
     EXPECT_NE(problem_of(human, Buffer(64)), "");
+    // Naming more joints does not help an animal.
+    const RoleRecord leg{0, static_cast<std::uint16_t>(Role::left_front_leg), 0};
+    test::ModelSpec animal = HumanModel(HumanSpec{}).spec;
+    animal.more.back().payload.assign(bytes_of(leg).begin(), bytes_of(leg).end());
+    EXPECT_EQ(
+        problem_of(counted(animal), source),
+        "the target is an animal, and only humans are retargeted; `bendy edit --merge` adds the clips of a skeleton "
+        "whose joints have the same names");
 }
 
 }  // namespace

@@ -67,11 +67,24 @@ Result<Model, Problem> open_model(Bytes file, bool needs_clips, const char* what
     }
 }
 
+bool is_animal(const Model& model) {
+    return std::any_of(model.roles().begin(), model.roles().end(), [](const JointRole& one) {
+        const auto role = static_cast<Role>(one.role);
+        return role >= Role::left_front_leg && role <= Role::right_wing;
+    });
+}
+
 /// Says why two characters cannot be retargeted, what was found and what to write.
 Problem explain(const RetargetError& error, const Model& source, const Model& target) {
     const Model& model = error.is_source ? source : target;
     std::vector<std::size_t> numbers(model.joints().size());
     for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = k;
+    if (error.reason != RetargetError::Reason::no_size && is_animal(model)) {
+        return {
+            std::string(error.is_source ? "the source" : "the target") +
+            " is an animal, and only humans are retargeted; `bendy edit --merge` adds the clips of a skeleton whose "
+            "joints have the same names"};
+    }
     std::string text = error_text(error);
     if (error.reason == RetargetError::Reason::no_size) return {text + ": is there no rest pose?"};
     text +=
@@ -199,8 +212,10 @@ private:
         clip.kept = std::move(followed.kept);
         clip.tracks = std::move(followed.tracks);
         for (const ContactCurve& contact : followed.contacts) {
+            const std::string path = std::string("/extras/") + kContactNames[contact.contact];  // as spec/rig.md has it
             CurveView curve;
             curve.name = kContactNames[contact.contact];
+            curve.path = path;
             curve.keys = static_cast<std::uint32_t>(contact.times.size());
             curve.times = contact.times;
             curve.values = contact.values;
@@ -212,7 +227,6 @@ private:
     [[nodiscard]] bool is_trunk(std::size_t joint) const {
         return std::any_of(source_.roles().begin(), source_.roles().end(), [&](const JointRole& one) {
             const auto role = static_cast<Role>(one.role);
-            const std::string path = std::string("/extras/") + kContactNames[contact.contact];  // as spec/rig.md has it
             return one.joint == joint && ((role >= Role::hips && role <= Role::head) || role == Role::spine_chain ||
                                           role == Role::neck_chain);
         });
@@ -277,8 +291,9 @@ private:
         }
         if (const auto stretched = numbers_in(stretched_); !stretched.empty()) {
             log_.warnings.push_back("limbs keep their lengths; the clips move or scale " +
-                                    counted(stretched.size(), "joint") +
-                                    " against its parent: " + list_names(names, stretched));
+                                    counted(stretched.size(), "joint") + " against " +
+                                    (stretched.size() == 1 ? "its parent: " : "their parents: ") +
+                                    list_names(names, stretched));
         }
         std::set<std::uint32_t> found(retarget_.morph_targets().begin(), retarget_.morph_targets().end());
         std::vector<std::string_view> lost;
