@@ -82,6 +82,10 @@ class CommandLine(MessageCase):
             self.assertEqual(rest, ["Try `bendy --help`."])
         self.assertEqual(self.refused(2, "xyzzyx")[0], "there is no command xyzzyx")
 
+    def test_a_file_in_place_of_a_command(self):
+        file = self.converted()
+        self.assertEqual(self.refused(2, file)[0], f"a command is missing before {file}: inspect, view or another")
+
     def test_mistyped_options(self):
         line, rest = self.refused(2, "convert", "--compcat", "a.glb")
         self.assertEqual(line, 'there is no option --compcat; did you mean "--compact"?')
@@ -89,6 +93,8 @@ class CommandLine(MessageCase):
         # The option is what is wrong, whatever else is missing because of it.
         self.assertEqual(self.refused(2, "render", "--ouput=x.png")[0], 'there is no option --ouput; did you mean "--output"?')
         self.assertEqual(self.refused(2, "--vresion")[0], 'there is no option --vresion; did you mean "--version"?')
+        # The dashes alone do not make two options alike.
+        self.assertEqual(self.refused(2, "rig", "--clip", "Walk")[0], "there is no option --clip")
         self.assertNotIn("--script", self.refused(2, "view", "--scrip")[0])  # for tests only
 
     def test_words_that_are_no_choice(self):
@@ -129,7 +135,8 @@ class Names(MessageCase):
         self.assertIn('there is no clip "Wlak"; did you mean "Walk"? There are "Idle" and "Walk"', line)
         line, _ = self.refused(1, "pose", self.converted(), "--clip", "Somersault")
         self.assertIn('there is no clip "Somersault"; there are "Idle" and "Walk"', line)
-        self.assertIn("there are none", self.refused(1, "bench", SOURCE / "spec/examples/one_joint.bendy", "--clip", "x")[0])
+        line, _ = self.refused(1, "bench", SOURCE / "spec/examples/one_joint.bendy", "--clip", "x")
+        self.assertIn("there are none (`bendy edit --retarget`", line)
 
     def test_chains_by_their_own_names_and_by_their_joints(self):
         line, _ = self.refused(1, "pose", self.converted(), "--reach", "IK_LeftArn=0,1,0")

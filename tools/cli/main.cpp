@@ -4,6 +4,8 @@
 #include "reports/console.h"
 #include "reports/messages.h"
 
+#include <bendy/format/names.h>
+
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
@@ -11,10 +13,12 @@
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -44,15 +48,23 @@ std::vector<std::string> options_of(const CLI::App& command) {
 
 std::string unknown_option(const CLI::App& command, const std::string& word) {
     const std::string name = word.substr(0, word.find('='));
-    return "there is no option " + name + suggest(options_of(command), name);
+    const std::vector<std::string> options = options_of(command);
+    std::vector<std::string_view> bare;  // the dashes, which all have, would make short ones alike
+    bare.reserve(options.size());
+    for (const std::string& option : options) bare.push_back(std::string_view(option).substr(2));
+    const std::string near(bendy::nearest_name(bare, name.substr(std::min(name.find_first_not_of('-'), name.size()))));
+    return "there is no option " + name + (near.empty() ? "" : "; did you mean \"--" + near + "\"?");
 }
 
 /// The words that no option or argument consumed, in order.
 std::string unexpected(const CLI::App& command, const std::vector<std::string>& words) {
     if (command.get_parent() == nullptr) {
         const std::string& word = words.front();
-        return word.starts_with('-') ? unknown_option(command, word)
-                                     : "there is no command " + word + suggest(commands_of(command), word);
+        if (word.starts_with('-')) return unknown_option(command, word);
+        std::error_code ignored;
+        if (std::filesystem::exists(std::u8string(word.begin(), word.end()), ignored))
+            return "a command is missing before " + word + ": inspect, view or another";
+        return "there is no command " + word + suggest(commands_of(command), word);
     }
     return (words.size() == 1 ? "one argument too many: " : "too many arguments: ") + enumerate(words);
 }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 /// Converts what the user typed to a path as UTF-8; CLI11 would leave the encoding to the C++ library.
 template <>
@@ -29,5 +30,10 @@ void add_render(CLI::App& program);
 void add_rig(CLI::App& program);
 void add_validate(CLI::App& program);
 void add_view(CLI::App& program);
+
+/// Why a program without the viewer does not draw, and which one does.
+inline constexpr std::string_view kWithoutViewer =
+    "this bendy was built without the viewer (BENDY_VIEWER=OFF); the Debian package and builds from the sources have "
+    "it";
 
 }  // namespace bendy::tools

@@ -145,7 +145,10 @@ const Clip& find_clip(const std::string& clip, const std::filesystem::path& file
     std::vector<std::string_view> names;
     for (const Clip& one : model.clips()) names.push_back(one.name);
     const auto found = find_by_key(names, clip, "clip");
-    if (!found) fail(file, printable(found.error().message));
+    if (!found) {
+        fail(file, printable(found.error().message) +
+                       (names.empty() ? " (`bendy edit --retarget` or `--merge` brings some in)" : ""));
+    }
     return model.clips()[*found];
 }
 

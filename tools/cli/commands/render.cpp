@@ -370,7 +370,7 @@ namespace bendy::tools {
 void add_render(CLI::App& program) {
     CLI::App* command = program.add_subcommand("render", "Make a picture (this bendy was built without it)");
     command->allow_extras();
-    command->callback([] { fail("render", "this bendy was built without the viewer (BENDY_VIEWER=OFF)"); });
+    command->callback([] { fail("render", kWithoutViewer); });
 }
 
 }  // namespace bendy::tools

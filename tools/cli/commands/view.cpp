@@ -72,7 +72,7 @@ namespace bendy::tools {
 void add_view(CLI::App& program) {
     CLI::App* command = program.add_subcommand("view", "Look at a character (this bendy was built without it)");
     command->allow_extras();
-    command->callback([] { fail("view", "this bendy was built without the viewer (BENDY_VIEWER=OFF)"); });
+    command->callback([] { fail("view", kWithoutViewer); });
 }
 
 }  // namespace bendy::tools

@@ -58,7 +58,7 @@ std::optional<DemoKey> demo_key(int key) {
 }  // namespace
 
 Window::Window(const ViewOptions& options) : options_(options) {
-    if (glfwInit() == GLFW_FALSE) throw ViewerError("no display: " + last_problem());
+    if (glfwInit() == GLFW_FALSE) throw ViewerError("no display: " + last_problem() + " (`bendy render` needs none)");
     try {
         open_gl();
         draw_.targets = true;
