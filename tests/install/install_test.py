@@ -70,6 +70,9 @@ class Case(unittest.TestCase):
         program = work / "by_pkg_config"
         run(ARGUMENTS.cxx, "-std=c++20", EMBED / "main.cpp", *flags["--cflags"], "-o", program, *flags["--libs"])
         self.check_program(program, shared)
+        older = subprocess.run([ARGUMENTS.cxx, "-std=c++17", "-fsyntax-only", EMBED / "main.cpp", *flags["--cflags"]],
+                               capture_output=True, text=True, check=False)
+        self.assertIn("bendy needs C++20", older.stderr)
         static = run("pkg-config", "--static", "--libs", "bendy-runtime", env=environment).split()
         self.assertLess(static.index("-lbendy-runtime"), static.index("-lbendy-format"))
         self.assertLess(static.index("-lbendy-format"), static.index("-lzstd"))

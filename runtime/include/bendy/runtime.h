@@ -20,6 +20,11 @@
 // immutable: any number of threads may share it, with a Pose each. Objects made from a Model share its data, so the
 // Model may be moved.
 
+// Nothing is declared for an older language: this one error instead of hundreds.
+#if (defined(_MSVC_LANG) ? _MSVC_LANG : __cplusplus) <= 201703L
+#error "bendy needs C++20: compile with -std=c++20 (Visual C++: /std:c++20)"
+#else
+
 #include <bendy/runtime/binding.h>
 #include <bendy/runtime/blend.h>
 #include <bendy/runtime/body_reach.h>
@@ -42,3 +47,5 @@
 #include <bendy/runtime/sample.h>
 #include <bendy/runtime/skin.h>
 #include <bendy/runtime/socket.h>
+
+#endif
