@@ -147,6 +147,7 @@ class Convert(Case):
         self.assertIn("bendy: proposed: left knee, LeftLeg: hinge about (1.00, 0.00, 0.00), 0 to 135 degrees", lines)
         self.assertTrue(all(line.startswith("bendy: proposed: ") for line in lines), lines)
         self.assertNotIn(b"proposed", result.stdout)
+        self.assertEqual(self.bendy("convert", "legs.gltf", "--auto-rig", "--quiet").stderr, b"")
         self.done("validate", "legs.bendy")
         self.assertEqual(self.bendy("convert", "legs.gltf").stderr, b"")
 

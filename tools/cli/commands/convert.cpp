@@ -154,7 +154,7 @@ void convert_file(const ConvertArguments& arguments, NamedBy named) {
     }
     const std::vector<std::byte> bytes = convert_and_write(arguments, named, report);
     print_warnings(input, report);
-    print_proposals(report);
+    if (!arguments.quiet) print_proposals(report);
     if (!arguments.quiet) print_summary(arguments, bytes, !report.compact);
     if (!arguments.quiet) print_embedded(report.embedded(), summary_stream(arguments.output));
     if (!arguments.quiet && report.compact) print_compact(*report.compact, summary_stream(arguments.output));
