@@ -1,4 +1,4 @@
-import { BendyError } from './errors.js';
+import { BendyError, described } from './errors.js';
 
 /** Returns a file's bytes, not copied. Throws BAD_ARGUMENT for anything else, such as a URL. */
 export function asBytes(source: unknown): Uint8Array {
@@ -9,8 +9,14 @@ export function asBytes(source: unknown): Uint8Array {
   const found =
     typeof source === 'string' || source instanceof URL
       ? `the address ${JSON.stringify(String(source))}, which only Model.open fetches: await (await fetch(address)).arrayBuffer()`
-      : typeof source === 'object' && source !== null
-        ? `an object of type ${tag.slice(8, -1)}, which is not its bytes: await its arrayBuffer() first`
-        : String(source);
+      : described(source) + whereBytesAre(source);
   throw new BendyError('bad_argument', `expected the bytes of a file, an ArrayBuffer or a Uint8Array, found ${found}`);
+}
+
+/** What to do with an object that has the bytes of a file. */
+function whereBytesAre(source: unknown): string {
+  if (typeof source !== 'object' || source === null || source instanceof Promise) return '';
+  if ('bytes' in source && source.bytes instanceof Uint8Array) return ', whose `bytes` are the file: pass those';
+  if ('arrayBuffer' in source) return ', which is not its bytes: await its arrayBuffer() first';
+  return '';
 }

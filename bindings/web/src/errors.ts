@@ -9,6 +9,13 @@ import type { Status } from './generated/bindings.js';
  */
 export type ErrorKind = Exclude<Status, 'ok'> | 'disposed' | 'stopped' | 'conversion' | 'edit';
 
+/** @internal What a caller gave in the place of something else, in the words of a message. */
+export function described(given: unknown): string {
+  if (given instanceof Promise) return 'a promise: await it';
+  if (typeof given === 'object' && given !== null) return `an object of type ${Object.prototype.toString.call(given).slice(8, -1)}`;
+  return typeof given === 'string' ? JSON.stringify(given) : String(given);
+}
+
 /** Every error that this package throws. */
 export class BendyError extends Error {
   /** The kind of the error. */

@@ -1,4 +1,4 @@
-import { BendyError } from './errors.js';
+import { BendyError, described } from './errors.js';
 
 /** One of several items of a model. Read-only. */
 export interface Item {
@@ -24,6 +24,9 @@ export function checkIndex(index: number, count: number, kind: string): number {
 export function indexOwn<T extends { readonly number: number }>(list: readonly T[], item: T, kind: string): number {
   const index = item != null && list[item.number] === item ? item.number : list.indexOf(item);
   if (index >= 0) return index;
+  if (Object(item) !== item || item instanceof Promise) {
+    throw new BendyError('bad_argument', `a ${kind} is a name, a number or one of the model's own, not ${described(item)}`);
+  }
   throw new BendyError('bad_argument', `the ${kind} belongs to another model`);
 }
 
@@ -93,9 +96,13 @@ export class Items<T extends Item> extends Array<T> {
       if (found !== undefined) return found;
       const names = this.names.slice(0, 20).map((name) => JSON.stringify(name));
       if (this.length > names.length) names.push(`${this.length - names.length} more`);
-      const meant = name !== undefined && this.find((item) => item.name.toLowerCase() === name.toLowerCase());
+      const lower = name?.toLowerCase();
+      const meant =
+        lower && (this.find((item) => item.name.toLowerCase() === lower) ?? this.find((item) => item.name.toLowerCase().startsWith(lower)));
       const hint = meant ? `; did you mean ${JSON.stringify(meant.name)}? There` : '; there';
-      throw new BendyError('not_found', `there is no ${this.#kind} ${JSON.stringify(key)}${hint} are: ${names.join(', ') || 'none'}`);
+      const advice = this.#kind === 'chain' ? '; convert() with { autoRig: true } proposes some' : '';
+      const list = names.length > 0 ? `are: ${names.join(', ')}` : `are none${advice}`;
+      throw new BendyError('not_found', `there is no ${this.#kind} ${JSON.stringify(key)}${hint} ${list}`);
     }
     if (typeof key === 'number') return checkIndex(key, this.length, this.#kind);
     return indexOwn(this, key, this.#kind);

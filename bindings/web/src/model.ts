@@ -50,6 +50,13 @@ class FileBytes {
   }
 }
 
+/** The error for a file of another kind, which says what to do with it. */
+function withAdvice({ kind, message, code, path, offset }: BendyError, content: Uint8Array): BendyError {
+  const isPage = /^\s*<(!doctype html|html)/i.test(new TextDecoder().decode(content.subarray(0, 200)));
+  const advice = isPage ? 'it is a web page: is the address right?' : 'convert() of bendy/tools makes one from glTF and other files';
+  return new BendyError(kind, `${message}; ${advice}`, code, path, offset);
+}
+
 /** A character: an opened and checked file. Immutable. Lists and arrays that have been read stay usable after it has been disposed. */
 export class Model extends Handle {
   readonly #file: FileBytes;
@@ -95,7 +102,7 @@ export class Model extends Handle {
       return new Model(runtime, runtime.calls.bendy_open_borrowed(file.at, content.byteLength, given), file);
     } catch (failure) {
       file.release();
-      throw failure;
+      throw failure instanceof BendyError && failure.code === 'NOT_A_BENDY_FILE' ? withAdvice(failure, content) : failure;
     }
   }
 

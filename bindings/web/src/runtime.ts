@@ -1,5 +1,5 @@
 /// <reference lib="esnext.disposable" preserve="true" />
-import { BendyError, type ErrorKind } from './errors.js';
+import { BendyError, described, type ErrorKind } from './errors.js';
 import { Calls, errorLayout, type Functions, readBendyError } from './generated/bindings.js';
 import type { Model } from './model.js';
 
@@ -220,8 +220,9 @@ export class Runtime {
 }
 
 function checkLength(numbers: ArrayLike<number>, count: number, name: string): void {
-  if (numbers.length === count) return;
-  throw new BendyError('bad_argument', `${name} has ${numbers.length} numbers, not ${count}`);
+  if (numbers?.length === count) return;
+  const found = typeof numbers?.length === 'number' ? `has ${numbers.length} numbers` : `is ${described(numbers)}`;
+  throw new BendyError('bad_argument', `${name} ${found}, not an array of ${count} numbers`);
 }
 
 /** Numbers in the module's memory that are viewed repeatedly. */
@@ -269,6 +270,8 @@ export abstract class Handle {
 
   /** @internal */
   protected constructor(runtime: Runtime, handle: number, free: (handle: number) => void) {
+    // `new Model(bytes)` in JavaScript: it would fail when the garbage collector frees it, and end the program.
+    if (typeof handle !== 'number') throw new BendyError('bad_argument', `new ${new.target.name}() is not for callers: use Model.open()`);
     this.runtime = runtime;
     this.#handle = handle;
     this.#owned.releases.push(() => free(handle));

@@ -99,13 +99,31 @@ test('what is no bytes is named', async () => {
     [new Blob([]), /found an object of type Blob, .* arrayBuffer\(\)/],
     [undefined, /found undefined/],
     [7, /found 7/],
+    [{ bytes: new Uint8Array(4) }, /found an object of type Object, whose `bytes` are the file/],
   ]) {
     await assert.rejects(Model.open(source, { runtime: simd }), { name: 'BendyError', code: 'BAD_ARGUMENT', message: words });
   }
   const onlyOpen = { code: 'BAD_ARGUMENT', message: /found the address "fox\.bendy", which only Model\.open fetches/ };
   assert.throws(() => Model.openSync('fox.bendy', { runtime: simd }), onlyOpen);
+  assert.throws(() => Model.openSync(Promise.resolve(), { runtime: simd }), { code: 'BAD_ARGUMENT', message: /found a promise: await it/ });
+  assert.throws(() => new Model(new Uint8Array(4)), { code: 'BAD_ARGUMENT', message: /Model\.open/ });
   const bytes = read(example('tentacle'));
   assert.ok(Model.openSync(new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength), { runtime: simd }).joints.length > 0);
+});
+
+test('a file of another kind, or what is no part of the model, says what to do', () => {
+  const open = (text) => Model.openSync(new TextEncoder().encode(text), { runtime: simd });
+  assert.throws(() => open('glTF....'), { code: 'NOT_A_BENDY_FILE', message: /convert\(\) of bendy\/tools/ });
+  assert.throws(() => open('\n<!DOCTYPE html><p>404'), { code: 'NOT_A_BENDY_FILE', message: /a web page: is the address right\?/ });
+
+  const model = Model.openSync(read(example('mannequin')), { runtime: simd });
+  const bad = (message) => ({ code: 'BAD_ARGUMENT', message });
+  assert.throws(() => model.sample('Wal', 0), { code: 'NOT_FOUND', message: /did you mean "Walk"\?/ });
+  assert.throws(() => model.sample(undefined, 0), bad(/a clip is a name, .* not undefined/));
+  assert.throws(() => model.sample({}, 0), bad(/the clip belongs to another model/));
+  assert.throws(() => model.pose().reach('IK_LeftArm', { x: 0, y: 1, z: 0 }), bad(/position is an object of type Object, not an array of 3/));
+  const simple = Model.openSync(readFileSync(join(repository, 'spec/examples/one_joint.bendy')), { runtime: simd });
+  assert.throws(() => simple.pose().reach('Arm', [0, 0, 0]), { code: 'NOT_FOUND', message: /there are none; convert\(\) with \{ autoRig: true \}/ });
 });
 
 test('skinning by palette, bones and weights gives the vertices that skin computes', () => {
