@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Reads tools/reports/convert_options.def, the one description of the options of `convert`, for Python and TypeScript.
 
-convert_options.py TARGET.ts    the interface ProgramOptions, of which ConvertOptions of bendy/tools is made
+convert_options.py TARGET.ts    the interface ProgramOptions and the names in it, of which ConvertOptions of bendy/tools is made
 """
 
 import re
@@ -46,7 +46,10 @@ def typescript():
         first = text[0] if text.partition(":")[0] in words else text[0].upper()
         lines += textwrap.wrap(f"/** {first}{with_names(text[1:], camel)}. */", 130, initial_indent="  ", subsequent_indent="   * ")
         lines.append(f"  {camel(name)}?: {kind};")
-    return "\n".join([*lines, "}"]) + "\n"
+    names = ", ".join(f"'{camel(name)}'" for name, *_ in read())
+    lines += ["}", "", "/** Their names. */",
+              *textwrap.wrap(f"export const programOptions: readonly (keyof ProgramOptions)[] = [{names}];", 130, subsequent_indent="  ")]
+    return "\n".join(lines) + "\n"
 
 
 if __name__ == "__main__":

@@ -315,6 +315,11 @@ test('damaged files have the same faults and messages', async () => {
 test('what is no bendy file is refused by name', async () => {
   await assert.rejects(tools.validate(read(examples[0])), { kind: 'malformed', code: 'NOT_A_BENDY_FILE' });
   await assert.rejects(tools.convert(new Uint8Array(0)), { kind: 'conversion' });
+  const refused = (options, message) => assert.rejects(tools.convert(read(examples[0]), options), { kind: 'bad_argument', message });
+  await refused({ autorig: true }, /no option "autorig"; did you mean autoRig\?/);
+  await refused({ 'auto-rig': true }, /did you mean autoRig\?/);
+  await refused({ maxError: '1mm' }, /no option "maxError"/);
+  await refused({ compact: [1] }, /compact is an object of type Array, not true or the largest error/);
   await assert.rejects(tools.convert({ '../a.glb': new Uint8Array(4) }), { kind: 'bad_argument' });
   await assert.rejects(tools.convert({}), { kind: 'conversion' });
   await assert.rejects(tools.assemble('{"bendy": '), { kind: 'malformed', code: 'TEXT', path: /^\d+:\d+$/ });

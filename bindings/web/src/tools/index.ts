@@ -8,6 +8,8 @@
  * @packageDocumentation
  */
 import { asBytes } from '../bytes.js';
+import { BendyError, described } from '../errors.js';
+import { programOptions } from '../generated/convert_options.js';
 import { type Inputs, runTool } from './module.js';
 import type {
   Chunk,
@@ -55,6 +57,18 @@ async function edited(request: object, inputs: Inputs): Promise<Edited> {
   return { bytes: made[0]!.bytes, done: answer.done, warnings: answer.warnings };
 }
 
+/** Throws BAD_ARGUMENT for an option that `convert` does not have. */
+function checkOptions(options: object): void {
+  const known: readonly string[] = programOptions;
+  const isKnown = (name: string): boolean => known.includes(name) && name !== 'maxError' && name !== 'root';
+  for (const name of Object.keys(options)) {
+    if (isKnown(name)) continue;
+    const meant = known.find((one) => isKnown(one) && one.toLowerCase() === name.replace(/[-_]/g, '').toLowerCase());
+    const hint = meant === undefined ? '' : `; did you mean ${meant}?`;
+    throw new BendyError('bad_argument', `convert has no option ${JSON.stringify(name)}${hint}`);
+  }
+}
+
 /**
  * Converts glTF, X-files, Quake II models and bendy files to a bendy file, exactly unless `compact`.
  *
@@ -63,6 +77,10 @@ async function edited(request: object, inputs: Inputs): Promise<Edited> {
  */
 export async function convert(source: Source, options: ConvertOptions = {}): Promise<Conversion> {
   const { main, rig, compact, progress, scene, ...others } = options;
+  checkOptions(others);
+  if (compact !== undefined && typeof compact !== 'boolean' && typeof compact !== 'string') {
+    throw new BendyError('bad_argument', `compact is ${described(compact)}, not true or the largest error, "0.1mm"`);
+  }
   const inputs: Inputs = {};
   let file = main ?? 'source';
   if (isOneFile(source)) {
