@@ -328,6 +328,18 @@ describe('what GLTFLoader cannot do', { skip }, () => {
 });
 
 describe('BendyAnimator', { skip }, () => {
+  it('says what it expects in the place of other things', async () => {
+    const bad = (message) => ({ code: 'BAD_ARGUMENT', message });
+    const character = await loadBendy('models/cesium_man.gltf', '--auto-rig');
+    assert.throws(() => new BendyAnimator(Promise.resolve(character)), bad(/the result of BendyLoader, .* found a promise: await it/));
+    assert.throws(() => new BendyAnimator(character.scene), bad(/the result of BendyLoader, .* found an object/));
+    const animator = new BendyAnimator(character);
+    for (const target of [undefined, [0, 1, 0], new THREE.Object3D()]) {
+      assert.throws(() => animator.reach(character.chains[0], target), bad(/the target is .*, not a point \{ x, y, z \}/));
+    }
+    animator.dispose();
+  });
+
   it('reaches within the limits', async () => {
     const character = await loadBendy('models/cesium_man.gltf', '--auto-rig');
     const { model, scene } = character;

@@ -13,6 +13,7 @@ import {
   type Vector3Like,
 } from 'three';
 import {
+  BendyError,
   type Chain,
   type Clip,
   CrossFade,
@@ -24,6 +25,7 @@ import {
   type ReachResult,
   type SkinOptions,
 } from '../index.js';
+import { described } from '../errors.js';
 import { type ClipOptions, startClip } from '../engines/player.js';
 import { Borrowed } from './borrowed.js';
 import type { BendyCharacter } from './character.js';
@@ -94,7 +96,10 @@ export class BendyAnimator {
 
   /** Throws OUT_OF_MEMORY, DISPOSED. */
   constructor(character: BendyCharacter, options: AnimatorOptions = {}) {
-    const { model } = character;
+    const model = character?.model as BendyCharacter['model'] | undefined;
+    if (model === undefined) {
+      throw new BendyError('bad_argument', `expected the result of BendyLoader, with scene and model, found ${described(character)}`);
+    }
     this.character = character;
     this.pose = model.pose();
     this.#other = model.pose();
@@ -159,6 +164,9 @@ export class BendyAnimator {
    * options and result are metres of the model. Throws NOT_FOUND, BAD_ARGUMENT.
    */
   reach(chain: Key<Chain>, target: Vector3Like, options: AnimatorReachOptions = {}): ReachResult {
+    if (typeof target?.x !== 'number') {
+      throw new BendyError('bad_argument', `the target is ${described(target)}, not a point { x, y, z } such as ball.position`);
+    }
     const { rotation, pole, space, ...rest } = options;
     const isWorld = space !== 'model';
     if (isWorld) {
