@@ -157,6 +157,14 @@ def test_wrong_arguments(model, compact):
     numpy.testing.assert_array_equal(pose.skin(), model.pose().skin())  # nothing of it has changed the pose
 
 
+def test_where_chains_come_from(model):
+    with pytest.raises(KeyError, match=r"there are none: bendy\.convert\(source, auto_rig=True\)"):
+        bendy.open(ROOT / "spec/examples/one_joint.bendy").pose().reach("LeftArm", (0, 1, 0))
+    with pytest.raises(KeyError, match='did you mean "IK_LeftArm"') as refused:
+        model.pose().reach("LeftArm", (0, 1, 0))
+    assert "auto_rig" not in str(refused.value)
+
+
 def test_local_transforms_are_copies_and_can_be_set(model):
     pose = model.sample("Walk", 0.3)
     other = model.pose()

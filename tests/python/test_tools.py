@@ -334,6 +334,9 @@ def test_render(model):
             call()
     with pytest.raises(KeyError):
         bendy.render(model, "Fly")
+    for size in (320, (320,), (0.5, 100)):
+        with pytest.raises(TypeError, match=r"size must be \(width, height\)"):
+            bendy.render(model, size=size)
 
 
 def test_png(model, tmp_path):

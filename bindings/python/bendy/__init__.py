@@ -17,6 +17,7 @@ import contextlib as _contextlib
 import html as _html
 import json as _json
 import math as _math
+import operator as _operator
 import os as _os
 from pathlib import Path as _Path
 
@@ -494,7 +495,7 @@ def render(subject, clip=None, times=None, *, size=(512, 512), yaw=None, pitch=N
     yaw, pitch: degrees around the character, 0, 0 is its front; None: as in `bendy render`, 34 and 11. distance: 1 fits the whole clip
     into the picture. background: None, "transparent", or red, green, blue, alpha, linear, 0 to 1. root: a folder whose images may be
     read, as for convert. Raises RenderError without OpenGL 3.3, NotImplementedError if the package was built without the viewer,
-    KeyError, ValueError.
+    KeyError, ValueError, TypeError.
     """
     _need_viewer()
     if isinstance(subject, Pose):
@@ -514,7 +515,10 @@ def render(subject, clip=None, times=None, *, size=(512, 512), yaw=None, pitch=N
             raise ValueError("background must be None, transparent or four numbers")
         background = (0.0, 0.0, 0.0, 0.0)
     drawn = [name for name, wanted in (("bones", bones), ("axes", axes), ("constraints", constraints), ("wireframe", wireframe)) if wanted]
-    width, height = size
+    try:
+        width, height = (_operator.index(length) for length in size)
+    except (TypeError, ValueError):
+        raise TypeError(f"size must be (width, height), two whole numbers of pixels, not {size!r}") from None
     yaw, pitch = (None if angle is None else _math.radians(angle) for angle in (yaw, pitch))
     character = subject._character if isinstance(subject, Pose) else subject._get()
     pose = subject._handle if isinstance(subject, Pose) else None

@@ -99,7 +99,7 @@ class Character:
                 number = self._numbers[kind].get(wanted)
                 if number is not None:
                     return number
-            return _bendy.find_key(names, wanted, kind)
+            return find_name(names, wanted, kind)
         if isinstance(wanted, Part):
             if wanted._kind == kind:
                 if wanted._character is not self:
@@ -108,6 +108,16 @@ class Character:
         elif hasattr(wanted, "__index__"):
             return find_index(wanted, len(names), kind)
         raise TypeError(f"a {kind} is a name, a number or one of the model's own")
+
+
+def find_name(names: List[str], wanted: str, kind: str) -> int:
+    """The number of what a text refers to. Raises KeyError."""
+    try:
+        return _bendy.find_key(names, wanted, kind)
+    except KeyError as error:
+        if names or kind != "chain":
+            raise
+        raise KeyError(f"{error.args[0]}: bendy.convert(source, auto_rig=True).open() proposes some") from None
 
 
 def find_index(wanted: SupportsIndex, count: int, kind: str) -> int:
@@ -167,7 +177,7 @@ class Items(collections.abc.Sequence, Generic[T]):
         if isinstance(key, slice):
             return self._things[key]
         if isinstance(key, str):
-            return self._things[_bendy.find_key(self._names, key, self._kind)]
+            return self._things[find_name(self._names, key, self._kind)]
         if isinstance(key, Part) and key not in self:  # a joint may stand for its number elsewhere
             raise ValueError(f"the {key._kind} is none of these")
         return self._things[find_index(key, len(self._things), self._kind)]
