@@ -1,0 +1,202 @@
+// A humanoid in a glTF file, posed by three.js.
+
+import fs from 'node:fs';
+import path from 'node:path';
+import * as THREE from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+
+globalThis.self ??= globalThis;
+globalThis.ProgressEvent ??= class extends Event {};
+
+/** The JSON and the buffer of a GLB file, or of a glTF file with its buffer beside it or inside. */
+function open(file) {
+    const bytes = fs.readFileSync(file);
+    if (bytes.toString('latin1', 0, 4) === 'glTF') {
+        const size = bytes.readUInt32LE(12);
+        return { json: JSON.parse(bytes.toString('utf8', 20, 20 + size)), buffer: bytes.subarray(28 + size) };
+    }
+    const json = JSON.parse(bytes.toString('utf8'));
+    const uri = json.buffers?.[0]?.uri ?? '';
+    const buffer = uri.startsWith('data:')
+        ? Buffer.from(uri.slice(uri.indexOf(',') + 1), 'base64')
+        : fs.readFileSync(path.join(path.dirname(file), decodeURIComponent(uri)));
+    return { json, buffer };
+}
+
+/** Role to number of node, from BENDY_joint_role. */
+function rolesIn(json) {
+    const roles = new Map();
+    json.nodes.forEach((node, number) => {
+        const role = node.extensions?.BENDY_joint_role?.role;
+        if (role !== undefined && !roles.has(role)) roles.set(role, number);
+    });
+    return roles;
+}
+
+/** The same for another file with the same nodes, by their names; null if names do not tell. */
+function rolesByName(json, other) {
+    const roles = new Map();
+    for (const [role, number] of rolesIn(other)) {
+        const { name } = other.nodes[number];
+        const found = json.nodes.flatMap((node, k) => (node.name === name ? [k] : []));
+        if (found.length !== 1) return null;
+        roles.set(role, found[0]);
+    }
+    return roles;
+}
+
+/** Loads a file's nodes and clips, with the roles that another file says. That file is loaded if names do not tell. */
+export async function loadRig(file, rolesFile = file) {
+    const { json, buffer } = open(file);
+    const roles = file === rolesFile ? rolesIn(json) : rolesByName(json, open(rolesFile).json);
+    if (!roles) return loadRig(rolesFile);
+    const limits = json.nodes.map((node) => node.extensions?.BENDY_joint_limits?.limits);
+    const labels = json.nodes.map((node, number) => node.name ?? `#${number}`);
+    const names = (json.animations ?? []).map((clip) => clip.name);
+    for (const kind of ['materials', 'textures', 'images', 'samplers', 'meshes', 'skins', 'cameras', 'extensions', 'extensionsRequired', 'extensionsUsed'])
+        delete json[kind];
+    for (const clip of json.animations ?? []) clip.channels = clip.channels.filter((channel) => channel.target.path !== 'weights');
+    json.nodes.forEach((node, number) => {
+        for (const kind of ['mesh', 'skin', 'camera', 'extensions', 'weights']) delete node[kind];
+        node.name = `node${number}`;  // three.js binds tracks by names
+    });
+    json.buffers[0].uri = `data:application/octet-stream;base64,${buffer.toString('base64')}`;
+    const gltf = await new Promise((resolve, reject) => new GLTFLoader().parse(JSON.stringify(json), '', resolve, reject));
+    const nodes = json.nodes.map((_, number) => gltf.scene.getObjectByName(`node${number}`));
+    nodes.forEach((node, number) => {
+        if (node) Object.assign(node, { number, label: labels[number], rest: node.quaternion.clone(), limit: limitOf(limits[number]) });
+    });
+    return new Rig(gltf, nodes, roles, names);
+}
+
+/** What poses obey: an IK solver's own limit is none of theirs. */
+function limitOf(limits = []) {
+    return limits.find((limit) => limit.scope === 'allButIk') ?? limits.find((limit) => (limit.scope ?? 'everyPose') === 'everyPose');
+}
+
+class Rig {
+    constructor(gltf, nodes, roles, names) {
+        Object.assign(this, { scene: gltf.scene, animations: gltf.animations, nodes, roles, names });
+        this.mixer = new THREE.AnimationMixer(this.scene);
+        this.limited = nodes.filter((node) => node?.limit);
+        this.axes = new THREE.Quaternion();
+        this.scene.updateMatrixWorld(true);
+        const rest = new Frame(this);
+        const up = snapped(rest.place('head').sub(rest.place('leftFoot').add(rest.place('rightFoot')).multiplyScalar(0.5)).normalize(), 35);
+        const across = rest.place('leftUpperLeg').sub(rest.place('rightUpperLeg')).add(rest.place('leftUpperArm')).sub(rest.place('rightUpperArm'));
+        const left = snapped(across.addScaledVector(up, -up.dot(across)).normalize(), 20);
+        this.axes.setFromRotationMatrix(new THREE.Matrix4().makeBasis(left, up, left.clone().cross(up))).invert();
+        this.rest = new Frame(this);
+        this.leg = this.rest.place('leftUpperLeg').distanceTo(this.rest.place('leftLowerLeg')) + this.rest.place('leftLowerLeg').distanceTo(this.rest.place('leftFoot'));
+    }
+    has(role) { return this.roles.has(role); }
+    node(role) { return this.nodes[this.roles.get(role)]; }
+    clip(name) {
+        const number = this.names.indexOf(name);
+        if (number < 0) throw new Error(`no clip ${name} among ${this.names}`);
+        return this.animations[number];
+    }
+    /** The nodes from the root down to a role's. */
+    above(role) {
+        const found = [];
+        for (let node = this.node(role); node && node !== this.scene; node = node.parent) found.push(node);
+        return found;
+    }
+    at(clip, seconds) {
+        if (this.playing !== clip) {
+            this.mixer.stopAllAction();
+            this.mixer.clipAction(clip).play();
+            this.playing = clip;
+        }
+        this.mixer.setTime(seconds);
+        this.scene.updateMatrixWorld(true);
+        return new Frame(this);
+    }
+}
+
+/** A unit vector, or the axis of the scene that is nearest to it if that is nearer than an angle. */
+function snapped(vector, degrees) {
+    const parts = vector.toArray();
+    const axis = [0, 1, 2].find((k) => Math.abs(parts[k]) >= Math.cos((degrees * Math.PI) / 180));
+    return axis === undefined ? vector.clone() : new THREE.Vector3().setComponent(axis, Math.sign(parts[axis]));
+}
+
+/** One pose, in the body's axes: X left, Y up, Z forward. */
+class Frame {
+    constructor(rig) {
+        this.rig = rig;
+        this.locals = rig.nodes.map((node) => node?.quaternion.clone());
+        this.places = new Map();
+        this.turns = new Map();
+        for (const [role, number] of rig.roles) {
+            const world = rig.nodes[number].matrixWorld;
+            this.places.set(role, new THREE.Vector3().setFromMatrixPosition(world).applyQuaternion(rig.axes));
+            const turn = new THREE.Quaternion().setFromRotationMatrix(new THREE.Matrix4().extractRotation(world)).premultiply(rig.axes);
+            this.turns.set(role, turn);
+        }
+    }
+    place(role) { return this.places.get(role).clone(); }
+    way(role, end) { return this.place(end).sub(this.place(role)).normalize(); }
+    /** Since rest. */
+    turn(role) { return this.turns.get(role).clone().multiply(this.rig.rest.turns.get(role).clone().invert()); }
+    local(node) { return this.locals[node.number]; }
+}
+
+// ---- limits, as spec/constraints.md has them
+
+const isFree = ([low, high]) => !(high - low < 2 * Math.PI);
+
+/** How far an angle is outside a range on the circle, radians. */
+function outside(angle, range = [-Infinity, Infinity]) {
+    if (isFree(range)) return 0;
+    const middle = (range[0] + range[1]) / 2;
+    const turned = angle - middle - 2 * Math.PI * Math.round((angle - middle) / (2 * Math.PI));
+    return Math.max(0, Math.abs(turned) - (range[1] - range[0]) / 2);
+}
+
+function outsideEllipse(y, z, limit) {
+    const half = (range, s) => {
+        const angle = s < 0 ? -range[0] : range[1];
+        return angle >= Math.PI ? (Number.isFinite(angle) ? 1 : Infinity) : Math.sin(angle / 2);
+    };
+    const free = [-Infinity, Infinity];
+    const [a, b] = [half(limit.y ?? free, y), half(limit.z ?? free, z)];
+    const share = Math.hypot(a > 0 ? y / a : 0, b > 0 ? z / b : 0);
+    const length = Math.hypot(y, z);
+    const beside = 2 * Math.asin(Math.min(1, Math.hypot(a > 0 ? 0 : y, b > 0 ? 0 : z)));
+    const beyond = share > 1 ? 2 * Math.asin(Math.min(1, length)) - 2 * Math.asin(Math.min(1, length / share)) : 0;
+    return Math.max(beside, beyond);
+}
+
+/** Both triples of Euler angles about X, Y and Z of a rotation. */
+function eulerForms(r, order = 'XYZ') {
+    // `order` lists the axes in the order in which they turn the node; three.js names the product from the left.
+    const found = new THREE.Euler().setFromQuaternion(r, [...order].reverse().join(''));
+    const middle = order[1].toLowerCase();
+    const angles = { x: found.x, y: found.y, z: found.z };
+    const other = { x: found.x + Math.PI, y: found.y + Math.PI, z: found.z + Math.PI, [middle]: Math.PI - angles[middle] };
+    return [angles, other];
+}
+
+/** How far a local rotation is outside the limit of its node, radians. */
+export function violationOf(node, rotation) {
+    const { limit } = node;
+    const frame = new THREE.Quaternion(...(limit.frame ?? [0, 0, 0, 1]));
+    const r = frame.clone().invert().multiply(node.rest.clone().invert()).multiply(rotation).multiply(frame).normalize();
+    if (r.w < 0) r.set(-r.x, -r.y, -r.z, -r.w);
+    const angle = 2 * Math.atan2(Math.hypot(r.x, r.y, r.z), r.w);
+    if (limit.model === 'free') return 0;
+    if (limit.model === 'locked') return angle;
+    if (limit.model === 'largestAngle') return Math.max(0, angle - (limit.angle ?? Infinity));
+    if (limit.model === 'eulerBox')
+        return Math.min(...eulerForms(r, limit.order).map((form) => Math.max(...['x', 'y', 'z'].map((axis) => outside(form[axis], limit[axis])))));
+    const twist = 2 * Math.atan2(r.x, r.w);
+    const about = new THREE.Quaternion(Math.sin(twist / 2), 0, 0, Math.cos(twist / 2));
+    const swing = r.clone().multiply(about.invert());
+    if (swing.w < 0) swing.set(-swing.x, -swing.y, -swing.z, -swing.w);
+    const twisted = outside(twist, limit.x);
+    if (limit.model === 'hinge') return Math.max(twisted, 2 * Math.asin(Math.min(1, Math.hypot(swing.y, swing.z))));
+    if (limit.model === 'swingTwistEllipse') return Math.max(twisted, outsideEllipse(swing.y, swing.z, limit));
+    const swung = (part, range) => outside(2 * Math.atan2(part, swing.w), range);
+    return Math.max(twisted, swung(swing.y, limit.y), swung(swing.z, limit.z));
+}

@@ -1,0 +1,175 @@
+#!/usr/bin/env python3
+"""Judges retargeting on characters of other makers, each to each.
+
+    bench/retarget/run.py --chars FOLDER... [--bendy PROGRAM] [--work FOLDER] [--from PART] [--to PART] [--json FILE]
+
+The folders have the files that bench/rigs.json lists, by source, commit, digest and licence. Each that has "clips" there is converted with --auto-rig; the clips
+that the list names are put on each other rig by `bendy edit --retarget`, as usual and without limits and planting, and from there
+back; `bendy export` writes all of it as glTF, and judge.mjs judges that with three.js. Prints tables; --json also writes the figures.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
+HERE = pathlib.Path(__file__).resolve().parent
+RIGS = HERE.parent / "rigs.json"
+FREE = ("--ignore-constraints", "--free-feet")
+SURFACE = ("--strip", "meshes", "--strip", "textures", "--strip", "materials")
+
+
+class Bench:
+    def __init__(self, bendy, folders, work):
+        self.bendy, self.folders, self.work = bendy, folders, work
+
+    def run(self, *arguments):
+        result = subprocess.run([self.bendy, *map(str, arguments)], capture_output=True, text=True, check=False)
+        if result.returncode != 0:
+            raise RuntimeError(result.stderr.strip())
+        return result.stdout + result.stderr
+
+    def export(self, path):
+        self.run("export", "-q", path, "-o", path.with_suffix(".glb"))
+        return str(path.with_suffix(".glb"))
+
+    def prepare(self, rig):
+        """The rig's file, checked; a bendy file of its joints, one with its clips, and one with them as glTF."""
+        path = next((folder / rig["file"] for folder in self.folders if (folder / rig["file"]).exists()), None)
+        if not path:
+            sys.exit(f"{rig['file']} of {rig['source']} is in none of {', '.join(map(str, self.folders))}")
+        digest = hashlib.sha256(path.read_bytes()).hexdigest()
+        if digest != rig["sha256"]:
+            sys.exit(f"{path}: its sha256 is {digest}, expected {rig['sha256']}")
+        name = path.stem
+        whole, target, source = (self.work / f"{name}.{kind}.bendy" for kind in ("whole", "target", "source"))
+        self.run("convert", "-q", "--auto-rig", path, "-o", whole)
+        self.run("edit", "-q", whole, "-o", target, *SURFACE, "--strip", "clips")
+        made = {"name": name, "rig": rig, "original": str(path), "target": target}
+        if rig.get("clips"):
+            self.run("edit", "-q", whole, "-o", source, *SURFACE, *(f"--keep-clip={clip}" for clip in rig["clips"]))
+            made |= {"source": source, "export": self.export(source)}
+            if path.suffix == ".bvh":
+                made["original"] = made["export"]
+        return made
+
+    def retarget(self, source, target):
+        """Jobs for the judge: one for each clip."""
+        stem = self.work / f"{source['name']}_on_{target['name']}"
+        full, free, back = (stem.with_suffix(f".{kind}.bendy") for kind in ("full", "free", "back"))
+        said = self.run("edit", target["target"], "-o", full, "--retarget", source["source"])
+        self.run("edit", "-q", target["target"], "-o", free, "--retarget", source["source"], *FREE)
+        self.run("edit", "-q", source["target"], "-o", back, "--retarget", full, *FREE)
+        files = {"full": self.export(full), "free": self.export(free), "back": self.export(back)}
+        for path in (full, free, back):
+            path.unlink()
+        held = dict(re.findall(r'retargeted clip "(.*?)":.*?limits acted in (\d+ of \d+) frame', said))
+        return [{"pair": f"{source['name']} > {target['name']}", "clip": clip, "source": source["original"], "roles": source["export"],
+                 "acted": held.get(clip, ""), "held_out": bool(source["rig"].get("held_out") or target["rig"].get("held_out")), **files}
+                for clip in source["rig"]["clips"]]
+
+    def own(self, rig):
+        """Whether a rig's own clips come back as the same bytes, but for contact curves."""
+        again = self.work / f"{rig['name']}.again.bendy"
+        self.run("edit", "-q", rig["target"], "-o", again, "--retarget", rig["source"], "--ignore-constraints")
+        result = subprocess.run([self.bendy, "diff", rig["source"], again], capture_output=True, text=True, check=False)
+        again.unlink()
+        return [line for line in result.stdout.splitlines() if line.startswith(("+", "-", "~")) and "/CURV" not in line]
+
+
+def install(work):
+    """three.js, as tests/export asks for it"""
+    tests = HERE.parent.parent / "tests" / "export"
+    for path in (HERE / "judge.mjs", HERE / "rig.mjs", tests / "package.json", tests / "package-lock.json"):
+        shutil.copy(path, work / path.name)
+    if not (work / "node_modules" / "three").exists():
+        subprocess.run(["npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts"], cwd=work, check=True, stdout=subprocess.DEVNULL)
+
+
+def judged(jobs, work):
+    """The judge's figures for each job, by as many judges as there are processors."""
+    parts = [jobs[k::os.cpu_count()] for k in range(os.cpu_count())]
+
+    def ask(number):
+        path = work / f"jobs{number}.json"
+        path.write_text(json.dumps(parts[number]))
+        result = subprocess.run(["node", "judge.mjs", path.name], cwd=work, check=True, capture_output=True, text=True)
+        return [json.loads(line) for line in result.stdout.splitlines()]
+
+    with ThreadPoolExecutor(len(parts)) as workers:
+        answers = list(workers.map(ask, range(len(parts))))
+    return [{**job, **answer} for part, lines in zip(parts, answers, strict=True) for job, answer in zip(part, lines, strict=True)]
+
+
+def added(lines, name):
+    """The sums of several clips as one."""
+    sums = [line[name] for line in lines if name in line]
+    worst = max(sums, key=lambda one: one["most"], default={"most": 0.0, "at": None})
+    count = sum(one["count"] for one in sums)
+    return {"mean": sum(one["total"] for one in sums) / max(count, 1), "most": worst["most"], "at": worst.get("at"),
+            "rms": (sum(one["squares"] for one in sums) / max(count, 1)) ** 0.5, "count": count}
+
+
+COLUMNS = {
+    "free dir": ("freeDirection", "most"), "twist": ("freeTwist", "most"), "dir": ("untouchedDirection", "most"),
+    "twist ": ("untouchedTwist", "most"), "mean dir": ("fullDirection", "mean"), "lim %": ("limited", "mean"),
+    "viol": ("violated", "most"), "slide0": ("sourceSlide", "mean"), "slide": ("slide", "mean"), "height": ("height", "most"),
+    "flip": ("flip", "most"), "back": ("returned", "rms"), "foot": ("footMissed", "most"), "hand": ("handMissed", "most"),
+}
+
+
+def row(name, lines):
+    cells = []
+    for title, (figure, kind) in COLUMNS.items():
+        number = added(lines, figure)[kind] * (100 if title == "lim %" else 1)
+        cells.append(f"{number:9.2g}" if title == "viol" else f"{number:9.3f}")
+    return f"{name:44} " + " ".join(cells)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--chars", required=True, nargs="+", type=pathlib.Path)
+    parser.add_argument("--bendy", default=HERE.parent.parent / "build/release/cli/bendy", type=pathlib.Path)
+    parser.add_argument("--work", default=pathlib.Path("build/bench-retarget"), type=pathlib.Path)
+    parser.add_argument("--from", dest="source", default="")
+    parser.add_argument("--to", dest="target", default="")
+    parser.add_argument("--json", type=pathlib.Path)
+    options = parser.parse_args()
+    options.work.mkdir(parents=True, exist_ok=True)
+    bench = Bench(options.bendy.resolve(), [*options.chars, HERE.parent.parent / "examples"], options.work.resolve())
+    install(bench.work)
+    listed = [rig for rig in json.loads(RIGS.read_text(encoding="utf-8")) if "clips" in rig]
+    with ThreadPoolExecutor(os.cpu_count()) as workers:
+        rigs = list(workers.map(bench.prepare, listed))
+        pairs = [(a, b) for a in rigs for b in rigs if "source" in a and a is not b and b["rig"].get("target", True)
+                 and options.source in a["name"] and options.target in b["name"]]
+        jobs = [job for made in workers.map(lambda pair: bench.retarget(*pair), pairs) for job in made]
+        own = dict(zip([rig["name"] for rig in rigs if "source" in rig],
+                       workers.map(bench.own, [rig for rig in rigs if "source" in rig])))
+    lines = judged(jobs, bench.work)
+    failed = [line for line in lines if "failed" in line]
+    lines = [line for line in lines if "failed" not in line]
+    if options.json:
+        options.json.write_text(json.dumps(lines, indent=1))
+    print(f"{'':44} " + " ".join(f"{title:>9}" for title in COLUMNS))
+    for name in dict.fromkeys(line["pair"] for line in lines):
+        print(row(name, [line for line in lines if line["pair"] == name]))
+    print(row("held-out pairs", [line for line in lines if line["held_out"]]))
+    print(row("all", lines))
+    for line in failed:
+        print(f"FAILED {line['pair']} {line['clip']}: {line['failed']}")
+    for name, other in own.items():
+        print(f"{name} on itself: " + ("the same" if not other else f"differs: {other[:3]}"))
+    print(f"{len(rigs)} rigs, {len(dict.fromkeys(line['pair'] for line in lines))} pairs, {len(lines)} clips, "
+          f"{sum(line['seconds'] for line in lines):.0f} s")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
