@@ -57,6 +57,22 @@ TEST(ImportBvh, JointsAreAtTheirOffsetsAndFramesAreKeys) {
     EXPECT_FALSE(clip.stated_span);
 }
 
+TEST(ImportBvh, ARootWithoutAnOffsetStandsOnTheGroundOfItsMotion) {
+    const std::string legs =
+        "HIERARCHY ROOT Hips { OFFSET 0 0 0 CHANNELS 4 Xposition Yposition Zposition Zrotation"
+        " JOINT Knee { OFFSET 0 -2 0 CHANNELS 1 Zrotation End Site { OFFSET 0 -2 0 } } }"
+        "MOTION Frames: 4 Frame Time: 0.1\n";
+    const std::string frames = "9 5 9 0 0   9 5 9 90 -90   9 9 9 0 0   9 5 9 0 0";  // on the ground at 1, 3, 5, 1
+    Report report;
+    const auto scene = import_bvh(legs + frames, "legs.bvh", {1.0}, report);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_NEAR(scene->joints[0].rest.translation.y, 5.0f, 1e-6);
+    EXPECT_EQ(scene->joints[0].rest.translation.x, 0.0f);
+    const auto placed = import_bvh(changed(legs, "0 0 0", "0 0 1") + frames, "legs.bvh", {1.0}, report);
+    ASSERT_TRUE(placed);
+    EXPECT_EQ(placed->joints[0].rest.translation, glm::vec3(0, 0, 1));
+}
+
 TEST(ImportBvh, AMotionInWhichNothingMovesKeepsItsLength) {
     Report report;
     const auto scene = import_bvh(kArm + kMotion + "7 90 0 0 4 7 90 0 0 4", "arm.bvh", {}, report);

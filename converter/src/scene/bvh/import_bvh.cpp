@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -137,6 +138,10 @@ private:
         std::vector<std::uint8_t> channels;  ///< X, Y, Z position: 0, 1, 2; X, Y, Z rotation: 3, 4, 5
         Track translation, rotation;
     };
+    struct Placed {
+        glm::dvec3 place{0.0};
+        glm::dquat turn{1.0, 0.0, 0.0, 0.0};
+    };
     /// A joint whose braces are open.
     struct Open {
         std::uint32_t joint = 0;
@@ -239,6 +244,9 @@ private:
             for (const Track* track : {&each.translation, &each.rotation})
                 per_frame += track->components == 0 ? 0 : (track->components + 1) * sizeof(float);
         }
+        per_frame += sizeof(double);
+        for (const Joint& joint : scene_.joints) frame_.push_back({joint.rest.translation, {1.0, 0.0, 0.0, 0.0}});
+        const double at_rest = lowest();
         std::size_t frames = 0;
         for (; !words_.is_at_end() && !moved_.empty(); ++frames) {
             if (frames == kMostFrames) fail(words_.place(), "there are too many frames");
@@ -250,6 +258,35 @@ private:
                         ", which are all read");
         }
         if (frames > 0) add_clip(frames, step);
+        if (frames > 0) stand_up(at_rest);
+    }
+
+    /// Returns the height of the lowest joint in the frame.
+    double lowest() {
+        double low = std::numeric_limits<double>::infinity();
+        std::vector<Placed> placed;
+        for (std::size_t joint = 0; joint < frame_.size(); ++joint) {  // parents come first
+            const std::uint32_t parent = scene_.joints[joint].parent;
+            Placed now = frame_[joint];
+            if (parent != kNone)
+                now = {placed[parent].place + placed[parent].turn * now.place, placed[parent].turn * now.turn};
+            low = std::min(low, now.place.y);
+            placed.push_back(now);
+        }
+        return low;
+    }
+
+    /// An OFFSET of 0 0 0 says nothing of a root that each frame moves: at rest its lowest joint is then on the ground of
+    /// the motion, which is where the lowest joint is in most frames.
+    void stand_up(double at_rest) {
+        const auto quarter = lows_.begin() + static_cast<std::ptrdiff_t>(lows_.size() / 4);  // in jumps it is higher
+        std::nth_element(lows_.begin(), quarter, lows_.end());
+        for (const Moved& each : moved_) {
+            Joint& joint = scene_.joints[each.joint];
+            const bool has_height = std::find(each.channels.begin(), each.channels.end(), 1) != each.channels.end();
+            if (joint.parent == kNone && has_height && joint.rest.translation == glm::vec3(0.0f))
+                joint.rest.translation.y = static_cast<float>(*quarter - at_rest);
+        }
     }
 
     void read_frame(float time) {
@@ -263,9 +300,11 @@ private:
                     turned = turned * turn(static_cast<std::uint8_t>(channel - 3), words_.number());
                 }
             }
+            frame_[each.joint] = {place, turned};
             add_key(each.translation, time, to_array<3>(place));
             add_key(each.rotation, time, to_array<4>(glm::dvec4(turned.x, turned.y, turned.z, turned.w)));
         }
+        lows_.push_back(lowest());
     }
 
     template <std::size_t N>
@@ -310,7 +349,9 @@ private:
     Budget budget_;
     Scene scene_;
     std::vector<Open> open_;
-    std::vector<Moved> moved_;  ///< in the order of the numbers of a frame
+    std::vector<Moved> moved_;   ///< in the order of the numbers of a frame
+    std::vector<Placed> frame_;  ///< by joint, relative to its parent
+    std::vector<double> lows_;   ///< by frame: the height of the lowest joint, metres
 };
 
 }  // namespace
