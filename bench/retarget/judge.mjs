@@ -71,7 +71,7 @@ function judge(source, target, frames) {
         sum('limited').add([...outside.values()].some((angle) => angle > kActs) ? 1 : 0);
         for (const node of target.limited) sum('violated').add(violationOf(node, full.local(node)), `${node.label} ${seconds.toFixed(2)}`);
         for (const limb of limbs) {
-            const isHeld = target.above(limb.bones[2]).some((node) => outside.get(node) > kActs);
+            const isHeld = limb.bones.some((bone) => target.above(bone).some((node) => outside.get(node) > kActs)); // feet may be beside legs
             const isLow = limb.foot?.some((bone) => source.has(bone) && from.place(bone).y - source.rest.place(bone).y < kGround * leg.source);
             const isFree = !isHeld && !isLow;
             sum('untouched').add(isFree ? 1 : 0);

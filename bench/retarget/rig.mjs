@@ -92,8 +92,8 @@ class Rig {
     has(role) { return this.roles.has(role); }
     node(role) { return this.nodes[this.roles.get(role)]; }
     clip(name) {
-        const number = this.names.indexOf(name);
-        if (number < 0) throw new Error(`no clip ${name} among ${this.names}`);
+        const number = name.startsWith('#') ? Number(name.slice(1)) : this.names.indexOf(name);
+        if (!this.animations[number]) throw new Error(`no clip ${name} among ${this.names}`);
         return this.animations[number];
     }
     /** The nodes from the root down to a role's. */

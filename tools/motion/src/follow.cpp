@@ -22,6 +22,8 @@ namespace {
 constexpr std::size_t kMostNumbers = 40'000'000;
 constexpr std::size_t kNumbers = 10;  // of a joint
 constexpr double kStretched = 0.01;   // of a joint's distance from its parent, and of its scale
+constexpr double kUneven = 0.002;     // radians: more samples are made where a joint is farther off halfway between two
+constexpr unsigned kHalvings = 3;     // of the time between two samples
 
 bool are_same(const JointTransform& a, const JointTransform& b) {
     return a.rotation == b.rotation && a.translation == b.translation && a.scale == b.scale;
@@ -36,6 +38,14 @@ double unit_of(const glm::mat4& matrix) {
 
 /// The joints' numbers in one sample.
 using Frame = std::vector<JointTransform>;
+
+/// What Retarget says at a time.
+struct Sample {
+    float seconds = 0.0f;
+    Retargeted done;
+    Frame frame;
+    std::vector<float> weights;
+};
 
 Frame frame_of(const Pose& pose) {
     Frame frame;
@@ -95,16 +105,51 @@ private:
         }
     }
 
-    /// Every second sample is a frame; those between them are only compared.
+    /// Between two samples there is a frame that is only compared, or more samples where something does not go evenly.
     bool play() {
-        const bool loops = ends_as_it_begins();
+        const std::vector<float> times = std::exchange(times_, {});
+        most_ = 4 * times.size();
         RetargetState state;
-        for (std::size_t k = 0; loops && k < times_.size(); ++k) {
-            if (!step(times_[k], state)) return false;
+        if (!result_.has_contacts && !find_contacts(times)) return false;
+        if (ends_as_it_begins()) {
+            for (const float time : times) {
+                if (!step(time, state)) return false;
+            }
         }
-        for (std::size_t k = 0; k < times_.size(); ++k) {
-            if (!record(times_[k], state)) return false;
-            if (k + 1 < times_.size() && !compare_later(0.5f * (times_[k] + times_[k + 1]), state)) return false;
+        auto first = sample_at(times.front(), state);
+        if (!first) return false;
+        record(std::move(*first));
+        for (std::size_t k = 1; k < times.size(); ++k) {
+            if (!advance(times[k], state, kHalvings)) return false;
+        }
+        return true;
+    }
+
+    /// Goes on from the last sample to another time.
+    bool advance(float to, RetargetState& state, unsigned halvings) {
+        const float from = times_.back();
+        const float half = 0.5f * (from + to);
+        RetargetState after = state;
+        auto between = sample_at(half, after);
+        auto end = between ? sample_at(to, after) : std::nullopt;
+        if (!end) return false;
+        const bool has_room = half > from && half < to && times_.size() < most_;
+        if (halvings > 0 && has_room && !is_even(*between, *end))
+            return advance(half, state, halvings - 1) && advance(to, state, halvings - 1);
+        between_.push_back(std::move(between->frame));
+        record(std::move(*end));
+        state = after;
+        return true;
+    }
+
+    /// Returns true if a sample is nearly halfway from the last one to another one.
+    [[nodiscard]] bool is_even(const Sample& between, const Sample& end) const {
+        for (std::uint32_t joint = 0; joint < between.frame.size(); ++joint) {
+            if (source_of_[joint] != kNone) continue;
+            const glm::quat &a = frames_.back()[joint].rotation, &b = end.frame[joint].rotation;
+            const glm::quat middle = glm::normalize(glm::dot(a, b) < 0.0f ? a - b : a + b);
+            const double half = 1.0 - std::abs(glm::dot(middle, between.frame[joint].rotation));
+            if (half > 0.125 * kUneven * kUneven) return false;
         }
         return true;
     }
@@ -122,38 +167,73 @@ private:
         return clip_.end > clip_.start;
     }
 
-    std::optional<Retargeted> step(float seconds, RetargetState& state) {
-        if (!sample(source_, &clip_, seconds)) return std::nullopt;
-        std::optional<ContactWeights> contacts;
-        if (result_.has_contacts) {
-            contacts.emplace();
-            for (std::size_t k = 0; k < kContacts; ++k) {
-                if (curves_[k] != nullptr) (void)sample_curve(*curves_[k], seconds, std::span(&(*contacts)[k], 1));
+    /// Finds when feet stand. In a quick motion a foot leaves the ground between two frames: it is then let go in kLetGo,
+    /// as it would jump otherwise to where the leg has it.
+    bool find_contacts(const std::vector<float>& times) {
+        constexpr float kLetGo = 0.06f;  // seconds
+        std::vector<ContactWeights> found;
+        RetargetState state;
+        for (int round = 0; round < (ends_as_it_begins() ? 2 : 1); ++round) {
+            found.clear();
+            for (const float time : times) {
+                const auto done = step(time, state);
+                if (!done) return false;
+                found.push_back(done->contacts);
             }
         }
-        const auto done = bendy::retarget(target_, retarget_, source_, state, contacts);
+        if (ends_as_it_begins()) found.front() = later(found.front(), found.back(), 0.0f);
+        for (std::size_t k = 1; k < found.size(); ++k)
+            found[k] = later(found[k], found[k - 1], (times[k] - times[k - 1]) / kLetGo);
+        weights_over_time_ = {times, std::move(found)};
+        return true;
+    }
+
+    static ContactWeights later(ContactWeights now, const ContactWeights& before, float fallen) {
+        for (std::size_t k = 0; k < kContacts; ++k) now[k] = std::max(now[k], before[k] - fallen);
+        return now;
+    }
+
+    std::optional<Retargeted> step(float seconds, RetargetState& state) {
+        if (!sample(source_, &clip_, seconds)) return std::nullopt;
+        const auto done = bendy::retarget(target_, retarget_, source_, state, contacts_at(seconds));
         if (!done) return std::nullopt;
         return *done;
     }
 
-    bool record(float seconds, RetargetState& state) {
-        const auto done = step(seconds, state);
-        if (!done) return false;
-        note(*done, seconds);
-        const bool is_first = frames_.empty();
-        frames_.push_back(frame_of(target_));
-        note_source(is_first, frames_.back());
-        note_kept(frames_.back());
-        weights_.emplace_back(target_.morph_weights().begin(), target_.morph_weights().end());
-        contacts_.push_back(done->contacts);
-        return true;
+    [[nodiscard]] std::optional<ContactWeights> contacts_at(float seconds) const {
+        ContactWeights contacts{};
+        if (result_.has_contacts) {
+            for (std::size_t k = 0; k < kContacts; ++k) {
+                if (curves_[k] != nullptr) (void)sample_curve(*curves_[k], seconds, std::span(&contacts[k], 1));
+            }
+            return contacts;
+        }
+        const auto& [times, weights] = weights_over_time_;
+        if (weights.empty()) return std::nullopt;
+        const auto after = std::upper_bound(times.begin(), times.end(), seconds);
+        const std::size_t k = std::clamp<std::ptrdiff_t>(after - times.begin(), 1, std::ssize(times) - 1);
+        const float share = (seconds - times[k - 1]) / (times[k] - times[k - 1]);
+        for (std::size_t c = 0; c < kContacts; ++c)
+            contacts[c] = weights[k - 1][c] + share * (weights[k][c] - weights[k - 1][c]);
+        return contacts;
     }
 
-    bool compare_later(float seconds, RetargetState& state) {
-        if (!step(seconds, state)) return false;
-        between_.push_back(frame_of(target_));
-        note_kept(between_.back());
-        return true;
+    std::optional<Sample> sample_at(float seconds, RetargetState& state) {
+        const auto done = step(seconds, state);
+        if (!done) return std::nullopt;
+        Sample sample{seconds, *done, frame_of(target_), {}};
+        sample.weights.assign(target_.morph_weights().begin(), target_.morph_weights().end());
+        note_source(sample.frame);
+        note_kept(sample.frame);
+        return sample;
+    }
+
+    void record(Sample sample) {
+        note(sample.done, sample.seconds);
+        times_.push_back(sample.seconds);
+        frames_.push_back(std::move(sample.frame));
+        weights_.push_back(std::move(sample.weights));
+        contacts_.push_back(sample.done.contacts);
     }
 
     void note(const Retargeted& done, float seconds) {
@@ -171,9 +251,9 @@ private:
         result_.lowered = std::max(result_.lowered, done.lowered);
     }
 
-    void note_source(bool is_first, const Frame& frame) {
+    void note_source(const Frame& frame) {
         const Frame now = frame_of(source_);
-        if (is_first) first_ = now;
+        if (first_.empty()) first_ = now;
         for (std::uint32_t joint = 0; joint < now.size(); ++joint) {
             if (!are_same(now[joint], first_[joint])) result_.moves[joint] = true;
         }
@@ -354,10 +434,12 @@ private:
     Pose source_, target_;
     std::array<const Curve*, kContacts> curves_;
     std::vector<float> times_;
+    std::size_t most_ = 0;  // samples
     std::vector<Frame> frames_, between_;
     Frame first_;  // of the source
     std::vector<std::vector<float>> weights_;
     std::vector<ContactWeights> contacts_;
+    std::pair<std::vector<float>, std::vector<ContactWeights>> weights_over_time_;  // found by find_contacts
     std::vector<std::uint32_t> source_of_;  // by joint of the target: the source's joint that has the same numbers
     Followed result_;
 };

@@ -31,7 +31,7 @@ struct RetargetClips {
 /// are not finite.
 edit::Edited retarget_clips(Bytes file, Bytes other, const RetargetClips& options, edit::Log& log);
 
-inline constexpr double kMostTurned = 0.0002;  ///< radians
+inline constexpr double kMostTurned = 0.00009;  ///< radians
 inline constexpr double kMostMoved = 0.0001;   ///< of the length of the legs
 inline constexpr double kMostWeight = 0.002;   ///< of a morph target, of a contact, of a scale
 
