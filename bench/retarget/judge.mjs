@@ -6,7 +6,7 @@
 
 import fs from 'node:fs';
 import * as THREE from 'three';
-import { loadRig, violationOf } from './rig.mjs';
+import { angleBetween, loadRig, violationOf } from './rig.mjs';
 
 const kRate = 60; // frames a second
 const kDegrees = 180 / Math.PI;
@@ -90,7 +90,7 @@ function judge(source, target, frames) {
                         sum('untouchedTwist').add(Math.min(twist, 360 - twist), label);
                     }
                 }
-                if (isFree) sum('returned').add(from.turn(bone).angleTo(back.turn(bone)) * kDegrees, label);
+                if (isFree) sum('returned').add(angleBetween(from.turn(bone), back.turn(bone)) * kDegrees, label);
             });
             const end = limb.bones[2];
             sum(limb.foot ? 'footMissed' : 'handMissed').add((100 * full.place(end).distanceTo(free.place(end))) / leg.target, `${end} ${seconds.toFixed(2)}`);
@@ -114,8 +114,8 @@ function judge(source, target, frames) {
         for (const bend of bends) {
             const now = { from: from.local(source.node(bend.bone)), to: full.local(target.node(bend.bone)) };
             if (bend.last) {
-                bend.source = Math.max(bend.source, now.from.angleTo(bend.last.from) * kDegrees);
-                const step = now.to.angleTo(bend.last.to) * kDegrees;
+                bend.source = Math.max(bend.source, angleBetween(now.from, bend.last.from) * kDegrees);
+                const step = angleBetween(now.to, bend.last.to) * kDegrees;
                 if (step > bend.target) [bend.target, bend.at] = [step, seconds];
             }
             bend.last = now;

@@ -23,6 +23,16 @@ function open(file) {
     return { json, buffer };
 }
 
+/** The file's nodes and clips as JSON with its buffer inside: what three.js reads without a browser. */
+export function nodesOnly(file) {
+    const { json, buffer } = open(file);
+    for (const kind of ['materials', 'textures', 'images', 'samplers', 'meshes', 'skins', 'cameras', 'extensionsRequired']) delete json[kind];
+    for (const clip of json.animations ?? []) clip.channels = clip.channels.filter((channel) => channel.target.path !== 'weights');
+    for (const node of json.nodes) for (const kind of ['mesh', 'skin', 'camera', 'weights']) delete node[kind];
+    json.buffers[0].uri = `data:application/octet-stream;base64,${buffer.toString('base64')}`;
+    return json;
+}
+
 /** Role to number of node, from BENDY_joint_role. */
 function rolesIn(json) {
     const roles = new Map();
@@ -47,20 +57,13 @@ function rolesByName(json, other) {
 
 /** Loads a file's nodes and clips, with the roles that another file says. That file is loaded if names do not tell. */
 export async function loadRig(file, rolesFile = file) {
-    const { json, buffer } = open(file);
+    const json = nodesOnly(file);
     const roles = file === rolesFile ? rolesIn(json) : rolesByName(json, open(rolesFile).json);
     if (!roles) return loadRig(rolesFile);
     const limits = json.nodes.map((node) => node.extensions?.BENDY_joint_limits?.limits);
     const labels = json.nodes.map((node, number) => node.name ?? `#${number}`);
+    json.nodes.forEach((node, number) => { node.name = `node${number}`; }); // three.js binds tracks by names
     const names = (json.animations ?? []).map((clip) => clip.name);
-    for (const kind of ['materials', 'textures', 'images', 'samplers', 'meshes', 'skins', 'cameras', 'extensions', 'extensionsRequired', 'extensionsUsed'])
-        delete json[kind];
-    for (const clip of json.animations ?? []) clip.channels = clip.channels.filter((channel) => channel.target.path !== 'weights');
-    json.nodes.forEach((node, number) => {
-        for (const kind of ['mesh', 'skin', 'camera', 'extensions', 'weights']) delete node[kind];
-        node.name = `node${number}`;  // three.js binds tracks by names
-    });
-    json.buffers[0].uri = `data:application/octet-stream;base64,${buffer.toString('base64')}`;
     const gltf = await new Promise((resolve, reject) => new GLTFLoader().parse(JSON.stringify(json), '', resolve, reject));
     const nodes = json.nodes.map((_, number) => gltf.scene.getObjectByName(`node${number}`));
     nodes.forEach((node, number) => {
@@ -140,6 +143,12 @@ class Frame {
     /** Since rest. */
     turn(role) { return this.turns.get(role).clone().multiply(this.rig.rest.turns.get(role).clone().invert()); }
     local(node) { return this.locals[node.number]; }
+}
+
+/** The angle between two rotations, radians; exact for small ones too, of quaternions that floats have rounded. */
+export function angleBetween(a, b) {
+    const by = a.clone().invert().multiply(b);
+    return 2 * Math.atan2(Math.hypot(by.x, by.y, by.z), Math.abs(by.w));
 }
 
 // ---- limits, as spec/constraints.md has them

@@ -92,9 +92,11 @@ Standing stand(const RetargetPlan& plan, const FootPlan& plan_of_foot, PoseState
     heel.weight = contact.heel;
     toes.weight = contact.toes;
     // Who lies or sits may be built so differently that a foot cannot be where it would be: it keeps its direction
-    // then.
+    // then, but does not sink into the ground.
     constexpr double kNear = 0.12, kFar = 0.3;  // leg lengths
-    const double share = eased(glm::length(standing.ankle - foot.ankle) / plan.leg, kNear, kFar);
+    glm::dvec3 off = standing.ankle - foot.ankle;
+    off -= std::max(0.0, glm::dot(off, plan.up)) * plan.up;
+    const double share = eased(glm::length(off) / plan.leg, kNear, kFar);
     return {glm::mix(foot.ankle, standing.ankle, share), share * standing.weight};
 }
 

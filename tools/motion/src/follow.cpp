@@ -66,9 +66,10 @@ std::array<const Curve*, kContacts> contact_curves(const Clip& clip) {
 
 class Following {
 public:
-    Following(Retarget& retarget, const Clip& clip)
+    Following(Retarget& retarget, const Clip& clip, double most_turned)
         : retarget_(retarget),
           clip_(clip),
+          most_turned_(most_turned),
           source_(retarget.source()),
           target_(retarget.target()),
           curves_(contact_curves(clip)) {
@@ -167,8 +168,8 @@ private:
         return clip_.end > clip_.start;
     }
 
-    /// Finds when feet stand. In a quick motion a foot leaves the ground between two frames: it is then let go in kLetGo,
-    /// as it would jump otherwise to where the leg has it.
+    /// Finds when feet stand. In a quick motion a foot leaves the ground between two frames: it is then let go in
+    /// kLetGo, as it would jump otherwise to where the leg has it.
     bool find_contacts(const std::vector<float>& times) {
         constexpr float kLetGo = 0.06f;  // seconds
         std::vector<ContactWeights> found;
@@ -291,7 +292,7 @@ private:
             }
             const JointTransform& rest = joints[joint].rest;
             const glm::quat& turned = rest.rotation;
-            add_track(joint, TrackPath::rotation, std::array{turned.x, turned.y, turned.z, turned.w}, kMostTurned,
+            add_track(joint, TrackPath::rotation, std::array{turned.x, turned.y, turned.z, turned.w}, most_turned_,
                       [&](const JointTransform& now) {
                           const glm::quat& q = now.rotation;
                           return std::array{q.x, q.y, q.z, q.w};
@@ -431,6 +432,7 @@ private:
 
     Retarget& retarget_;
     const Clip& clip_;
+    double most_turned_;  // radians
     Pose source_, target_;
     std::array<const Curve*, kContacts> curves_;
     std::vector<float> times_;
@@ -446,8 +448,9 @@ private:
 
 }  // namespace
 
-std::optional<Followed> follow(Retarget& retarget, const Clip& clip, const std::vector<std::uint32_t>& sampled_meshes) {
-    return Following(retarget, clip).run(sampled_meshes);
+std::optional<Followed> follow(Retarget& retarget, const Clip& clip, double most_turned,
+                               const std::vector<std::uint32_t>& sampled_meshes) {
+    return Following(retarget, clip, most_turned).run(sampled_meshes);
 }
 
 }  // namespace bendy::motion

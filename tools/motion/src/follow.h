@@ -44,8 +44,10 @@ struct Followed {
 };
 
 /// Plays the clip on the target. Nothing, if a number is not finite.
+/// \param most_turned     radians: by how much rotations may differ from Retarget's
 /// \param sampled_meshes  meshes of the target whose weights become tracks
-std::optional<Followed> follow(Retarget& retarget, const Clip& clip, const std::vector<std::uint32_t>& sampled_meshes);
+std::optional<Followed> follow(Retarget& retarget, const Clip& clip, double most_turned,
+                               const std::vector<std::uint32_t>& sampled_meshes);
 
 inline constexpr const char* kContactNames[kContacts] = {"left_heel_contact", "left_toes_contact", "right_heel_contact",
                                                          "right_toes_contact"};

@@ -19,8 +19,9 @@ struct RetargetClips {
 /// need roles. Everything that a clip has comes along: its markers, its named curves, its weights of morph targets.
 ///
 /// Joints whose numbers are the source's in every frame keep its tracks, byte for byte; the others have linear tracks
-/// with as few keys as keep every rotation within kMostTurned and every translation within kMostMoved of the legs'
-/// length. How far joints are from where Retarget has them, also between the keys, is measured and reported.
+/// with as few keys as keep every rotation within kMostTurned (or kMostTurnedFree) and every translation within
+/// kMostMoved of the legs' length. How far joints are from where Retarget has them, also between the keys, is measured
+/// and reported.
 ///
 /// How firmly heels and toes stand comes with the clip as the curves left_heel_contact, left_toes_contact,
 /// right_heel_contact and right_toes_contact, from 0 in the air to 1 on the ground. Where the source's clip has one of
@@ -32,7 +33,9 @@ struct RetargetClips {
 edit::Edited retarget_clips(Bytes file, Bytes other, const RetargetClips& options, edit::Log& log);
 
 inline constexpr double kMostTurned = 0.00009;  ///< radians
-inline constexpr double kMostMoved = 0.0001;   ///< of the length of the legs
-inline constexpr double kMostWeight = 0.002;   ///< of a morph target, of a contact, of a scale
+inline constexpr double kMostTurnedFree =
+    0.000004;                                 ///< without limits and planted feet, where keys of the source are exact
+inline constexpr double kMostMoved = 0.0001;  ///< of the length of the legs
+inline constexpr double kMostWeight = 0.002;  ///< of a morph target, of a contact, of a scale
 
 }  // namespace bendy::motion
