@@ -13,7 +13,9 @@ const kDegrees = 180 / Math.PI;
 // Contacts as the judge finds them: an ankle on the ground is at most so much above its rest, and so slow.
 const kLow = 0.04; // leg lengths
 const kSlow = 0.3; // leg lengths a second
-const kGround = 0.16; // leg lengths: a leg whose ankle or toes are lower may be moved by the ground
+// A leg whose ankle or toes are lower than that, or were so shortly before, may be moved by the ground.
+const kGround = 0.16; // leg lengths
+const kShortly = 0.1; // seconds
 const kActs = 0.002; // radians outside a limit without which nobody can tell that it acts
 
 const sides = ['left', 'right'];
@@ -62,6 +64,7 @@ function judge(source, target, frames) {
     const count = Math.min(...Object.values(frames).map((list) => list.length));
     const leg = { source: source.leg, target: target.leg };
     const last = [];
+    const low = new Map(); // when a leg was low last
     const bends = ['leftLowerArm', 'rightLowerArm', 'leftLowerLeg', 'rightLowerLeg'].map((bone) => ({ bone, source: 0, target: 0 }));
     for (let k = 0; k < count; ++k) {
         const [from, free, full, back] = [frames.source[k], frames.free[k], frames.full[k], frames.back[k]];
@@ -72,8 +75,8 @@ function judge(source, target, frames) {
         for (const node of target.limited) sum('violated').add(violationOf(node, full.local(node)), `${node.label} ${seconds.toFixed(2)}`);
         for (const limb of limbs) {
             const isHeld = limb.bones.some((bone) => target.above(bone).some((node) => outside.get(node) > kActs)); // feet may be beside legs
-            const isLow = limb.foot?.some((bone) => source.has(bone) && from.place(bone).y - source.rest.place(bone).y < kGround * leg.source);
-            const isFree = !isHeld && !isLow;
+            if (limb.foot?.some((bone) => source.has(bone) && from.place(bone).y - source.rest.place(bone).y < kGround * leg.source)) low.set(limb, seconds);
+            const isFree = !isHeld && !(seconds - low.get(limb) < kShortly);
             sum('untouched').add(isFree ? 1 : 0);
             limb.bones.slice(0, 2).forEach((bone, n) => {
                 const end = limb.bones[n + 1];

@@ -19,7 +19,8 @@
 namespace bendy {
 namespace {
 
-constexpr std::size_t kLegs = 2;  // the first limbs
+constexpr std::size_t kLegs = 2;                          // the first limbs
+constexpr double kFarOutside = 0.79, kMostOutside = 1.57;  // radians: 30 and 75 degrees
 
 /// A limb in one frame, model space.
 struct LimbFrame {
@@ -102,18 +103,38 @@ private:
                                                       : plan_.turns[moved.above] * glm::conjugate(moved.before);
         const glm::dquat actual_space = is_held ? plan_.held[moved.carrier] * space : space;
         if (is_held) to_.set_rotation(moved.joint, glm::quat(glm::normalize(glm::conjugate(actual_space) * wanted)));
-        if (moved.constraint == nullptr || !constrain(*moved.constraint)) return;
+        if (moved.constraint == nullptr) return;
+        const double outside = constrain(*moved.constraint);
+        if (outside == 0.0) return;
+        if (outside > kFarOutside && is_bend(moved.joint)) relax(*moved.constraint, outside);
         held = glm::normalize(actual_space * glm::dquat(to_.local_of(moved.joint).rotation) * glm::conjugate(wanted));
     }
 
-    /// Returns whether the joint was outside.
-    bool constrain(const Constraint& constraint) {
+    /// Returns whether it is a knee or an elbow.
+    [[nodiscard]] bool is_bend(std::uint32_t joint) const {
+        return std::any_of(plan_.limbs.begin(), plan_.limbs.end(),
+                           [joint](const LimbPlan& limb) { return limb.lower == joint; });
+    }
+
+    /// A knee or an elbow that is to turn far beyond its limits would jump from one end to the other, where both are
+    /// equally near. So the farther beyond, the nearer it is to its rest.
+    void relax(const Constraint& constraint, double outside) {
+        const double share = std::min(1.0, (outside - kFarOutside) / (kMostOutside - kFarOutside));
+        const std::uint32_t joint = constraint.joint;
+        const glm::dquat rest(plan_.target.joints()[joint].rest.rotation);
+        const glm::dquat now(to_.local_of(joint).rotation);
+        to_.set_rotation(joint, glm::quat(between(glm::normalize(now), glm::normalize(rest), share)));
+        (void)constrain(constraint);
+    }
+
+    /// Returns the angle by which the joint was outside, radians.
+    double constrain(const Constraint& constraint) {
         const auto angle = static_cast<float>(constrain_joint(pose_, constraint, Legal::quick));
         if (angle > result_.turned) {
             result_.turned = angle;
             result_.turned_joint = constraint.joint;
         }
-        return angle > 0.0f;
+        return angle;
     }
 
     /// Lowers the hips until the feet that stand on the ground are within reach.
