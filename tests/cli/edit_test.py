@@ -15,6 +15,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
+from bvh_file import walk  # noqa: E402
 from chunk_file import Chunk  # noqa: E402
 from gltf_file import GltfFile  # noqa: E402
 from program import SOURCE, Case, main  # noqa: E402
@@ -322,6 +323,76 @@ class Rename(EditCase):
         self.assertIn("OLD=NEW", self.misused("edit", source, "-o", "x.bendy", "--rename-joint", "Hips"))
         self.assertIn("KIND:OLD=NEW", self.misused("edit", source, "-o", "x.bendy", "--rename", "Hips=x"))
         self.assertIn("one of joint", self.misused("edit", source, "-o", "x.bendy", "--rename", "bone:a=b"))
+
+
+class Retargeting(EditCase):
+    """`--retarget`: what it says, what it refuses, and that nothing is written then."""
+
+    def walker(self, frames=3):
+        path = self.folder / "walker.bvh"
+        path.write_text(walk(frames))
+        return path
+
+    def test_a_motion_goes_on_a_character_with_its_warnings(self):
+        made = self.edit(self.made("mannequin"), "--retarget", self.walker())
+        self.assertEqual(self.clips(made), ["Idle", "Walk", "walker"])
+        self.assertIn("times as long as the source's", self.told)
+        self.assertIn('retargeted clip "walker"', self.told)
+        self.done("validate", made)
+
+    def test_clips_are_chosen_by_name(self):
+        source = self.made("mannequin")
+        bare = self.edit(source, "--strip", "clips", name="bare.bendy")
+        self.assertEqual(self.clips(self.edit(bare, "--retarget", f"{source}:W*")), ["Walk"])
+        self.assertIn("no clip", self.failed("edit", bare, "-o", "x.bendy", "--retarget", f"{source}:Run"))
+        self.assertFalse((self.folder / "x.bendy").exists())
+
+    def test_a_taken_name_is_refused_unless_said_otherwise(self):
+        source = self.made("mannequin")
+        self.assertIn("--same-name", self.failed("edit", source, "-o", "x.bendy", "--retarget", source))
+        again = self.edit(source, "--retarget", source, "--same-name", "number", "--ignore-constraints")
+        self.assertEqual(self.clips(again), ["Idle", "Walk", "Idle.001", "Walk.001"])
+        self.assertEqual(self.worlds(again, "--clip", "Walk.001", "--time", "0.37"), self.worlds(again, *Merge.CLIP))
+
+    def test_bodies_without_roles_are_refused_with_what_to_write(self):
+        source, other = self.made("mannequin"), self.made("tentacle")
+        said = self.failed("edit", source, "-o", "x.bendy", "--retarget", other)
+        self.assertIn("the source does not say what its joints are", said)
+        self.assertIn('{"bendy_rig": 1, "roles": {"hips": "NAME"}}', said)
+        self.assertIn("the target does not say", self.failed("edit", other, "-o", "x.bendy", "--retarget", source))
+        headless = self.edit(source, "--role", "head=", "--role", "left_foot=", name="headless.bendy")
+        said = self.failed("edit", source, "-o", "x.bendy", "--retarget", headless)
+        self.assertIn("has no joint for head, left_foot", said)
+        self.assertFalse((self.folder / "x.bendy").exists())
+
+    def test_damaged_and_missing_files_are_refused(self):
+        source = self.made("mannequin")
+        whole = source.read_bytes()
+        broken = self.folder / "broken.bendy"
+        for size in (0, 7, 16, len(whole) // 2, len(whole) - 4):
+            broken.write_bytes(whole[:size])
+            self.assertIn("broken.bendy", self.failed("edit", source, "-o", "x.bendy", "--retarget", broken))
+            self.assertIn("broken.bendy", self.failed("edit", broken, "-o", "x.bendy", "--retarget", source))
+        self.assertIn("gone.glb", self.failed("edit", source, "-o", "x.bendy", "--retarget", "gone.glb"))
+        self.assertFalse((self.folder / "x.bendy").exists())
+
+    def test_merging_other_units_says_what_to_do(self):
+        def in_centimetres(document):
+            for node in document["nodes"]:
+                if "translation" in node:
+                    node["translation"] = [100 * number for number in node["translation"]]
+
+        for name, advice in (("mannequin", "retarget its clips instead: --retarget "), ("tentacle", "apply the scale")):
+            large = self.folder / "large.glb"
+            large.write_bytes(glb_with(SOURCE / "examples" / f"{name}.glb", in_centimetres))
+            bare = self.edit(self.made(name), "--strip", "clips", name="bare.bendy")
+            said = self.failed("edit", bare, "-o", "x.bendy", "--merge", large)
+            self.assertIn("the skeletons differ in scale", said)
+            self.assertIn(advice, said)
+        large.write_bytes(glb_with(SOURCE / "examples" / "mannequin.glb", in_centimetres))
+        bare = self.edit(self.made("mannequin"), "--strip", "clips", name="bare.bendy")
+        self.assertEqual(self.clips(self.edit(bare, "--retarget", large)), ["Idle", "Walk"])
+        self.assertIn("0.01 times as long", self.told)
 
 
 class Merge(EditCase):

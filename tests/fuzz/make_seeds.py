@@ -231,6 +231,11 @@ def gather(bendy, out, folders, work):
         keep(out / "md2", md2_file(work / "model.md2", names).read_bytes())
     for text in (walk(3), walk(0), walk(1).replace("\n", "\r\n").replace("  ", "\t")):
         keep(out / "bvh", text.encode())
+        human = work / "human.bvh"
+        human.write_text(text)
+        for options in (["--auto-rig"], ["--compact"]):
+            subprocess.run([bendy, "convert", "-q", human, "-o", work / "human.bendy", *options], check=True, capture_output=True)
+            keep(out / "bendy", (work / "human.bendy").read_bytes())
     for folder in ("x", "md2", "bvh"):
         for file in sorted((out / folder).iterdir()):
             keep_conversion(out / "convert", file.read_bytes())

@@ -337,6 +337,7 @@ class Merger {
 public:
     Merger(const ClipFiles& files, SameName same_name, Log& log)
         : from_(files.from()),
+          to_(files.to()),
           log_(log),
           pairing_(from_, files.to()),
           placer_(files, pairing_.map().joints, pairing_.meshes(), same_name, log) {}
@@ -374,13 +375,25 @@ private:
         const double factor = std::max(scale.times, 1.0 / scale.times);
         if (factor >= kOtherUnits) {
             return Problem{pairing_.describe_scale(scale) +
-                           "; export its clips in the units of this file or, of humans, retarget its clips instead"};
+                           (are_humans()
+                                ? "; retarget its clips instead"
+                                : "; export both from the same scene, in the same units: in Blender, apply the "
+                                  "scale of both armatures first (Object > Apply > Scale)")};
         }
         if (factor > kNoticeable) {
             log_.warnings.push_back(pairing_.describe_scale(scale) +
                                     "; retargeting fits clips to a character of another size");
         }
         return std::nullopt;
+    }
+
+    /// Returns true if retargeting may help: both say which joint is the hips.
+    [[nodiscard]] bool are_humans() const {
+        const auto has_hips = [](const ObjectView& object) {
+            return std::any_of(object.roles.begin(), object.roles.end(),
+                               [](const RoleRecord& role) { return static_cast<Role>(role.role) == Role::hips; });
+        };
+        return has_hips(from_) && has_hips(to_);
     }
 
     void tell() {
@@ -422,7 +435,7 @@ private:
         return {"its clips animate " + std::to_string(missing.size()) +
                 (missing.size() == 1 ? " joint, which is not here: " : " joints and none of them is here: ") +
                 list_names(names_of(from_.skeleton.joints), missing, 4) + pairing_.explain(missing.front()) +
-                "; if both are humans, retarget its clips instead"};
+                (are_humans() ? "; retarget its clips instead" : "")};
     }
 
     Result<void, Problem> put_clip(const ClipView& clip, const TrackCounts& counts) {
@@ -446,6 +459,7 @@ private:
     }
 
     const ObjectView& from_;
+    const ObjectView& to_;
     Log& log_;
     Pairing pairing_;
     ClipPlacer placer_;
