@@ -15,6 +15,7 @@ import os
 import pathlib
 import re
 import shutil
+import struct
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -74,6 +75,32 @@ class Bench:
                  "acted": held.get(clip, ""), "held_out": bool(source["rig"].get("held_out") or target["rig"].get("held_out")), **files}
                 for clip in source["rig"]["clips"]]
 
+    def beside_vrm(self, source, target):
+        """A clip as a VRM animation on a VRM avatar: how far Bendy is from three-vrm-animation. Only bones of both count: it
+        leaves out turns of others, whereas Bendy gives them to the next bone."""
+        motion, made, exported = (self.work / f"vrm.{suffix}" for suffix in ("vrma", "bendy", "glb"))
+        text, rest = split_glb(pathlib.Path(source["export"]).read_bytes())
+        have = {bone["bone"] for bone in split_glb(pathlib.Path(target["original"]).read_bytes())[0]["extensions"]["VRM"]["humanoid"]["humanBones"]}
+        roles = {node["extensions"]["BENDY_joint_role"]["role"]: k for k, node in enumerate(text["nodes"])
+                 if "BENDY_joint_role" in node.get("extensions", {})}
+        roles = {role: k for role, k in roles.items() if role in have and "Thumb" not in role}  # VRM 0 calls thumbs otherwise
+        text["extensionsUsed"] = ["VRMC_vrm_animation"]
+        text["extensions"] = {"VRMC_vrm_animation": {"specVersion": "1.0", "humanoid": {
+            "humanBones": {role: {"node": k} for role, k in roles.items()}}}}
+        for node in text["nodes"]:
+            node.pop("extensions", None)
+        for clip in text["animations"]:
+            clip["channels"] = [c for c in clip["channels"] if c["target"]["node"] in roles.values() and (
+                c["target"]["path"] == "rotation" or (c["target"]["path"] == "translation" and c["target"]["node"] == roles["hips"]))]
+        motion.write_bytes(join_glb(text, rest))
+        self.run("edit", "-q", target["target"], "-o", made, "--retarget", f"{motion}:#0", "--rests-alike", *FREE)
+        self.run("export", "-q", made, "-o", exported)
+        result = subprocess.run(["node", "vrm.mjs", target["original"], motion.name, exported.name], cwd=self.work, check=True,
+                                capture_output=True, text=True)
+        for path in (motion, made, exported):
+            path.unlink()
+        return json.loads(result.stdout)
+
     def own(self, rig):
         """Whether a rig's own clips come back as the same bytes, but for contact curves."""
         again = self.work / f"{rig['name']}.again.bendy"
@@ -83,12 +110,22 @@ class Bench:
         return [line for line in result.stdout.splitlines() if line.startswith(("+", "-", "~")) and "/CURV" not in line]
 
 
+def split_glb(data):
+    size = struct.unpack_from("<I", data, 12)[0]
+    return json.loads(data[20 : 20 + size]), data[20 + size :]
+
+
+def join_glb(document, rest):
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    return struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest
+
+
 def install(work):
-    """three.js, as tests/export asks for it"""
-    tests = HERE.parent.parent / "tests" / "export"
-    for path in (HERE / "judge.mjs", HERE / "rig.mjs", tests / "package.json", tests / "package-lock.json"):
+    """the judge, three.js and three-vrm-animation"""
+    for path in HERE.glob("*.*js*"):
         shutil.copy(path, work / path.name)
-    if not (work / "node_modules" / "three").exists():
+    if not (work / "node_modules" / "@pixiv").exists():
         subprocess.run(["npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts"], cwd=work, check=True, stdout=subprocess.DEVNULL)
 
 
@@ -166,6 +203,9 @@ def main():
         print(f"FAILED {line['pair']} {line['clip']}: {line['failed']}")
     for name, other in own.items():
         print(f"{name} on itself: " + ("the same" if not other else f"differs: {other[:3]}"))
+    for target in (rig for rig in rigs if rig["original"].endswith(".vrm")):
+        for source in (rig for rig in rigs if rig["rig"].get("rests_in_t")):
+            print(f"{source['name']} as a VRM animation > {target['name']}: {bench.beside_vrm(source, target)}")
     print(f"{len(rigs)} rigs, {len(dict.fromkeys(line['pair'] for line in lines))} pairs, {len(lines)} clips, "
           f"{sum(line['seconds'] for line in lines):.0f} s")
     return 1 if failed else 0

@@ -19,8 +19,9 @@
 namespace bendy {
 namespace {
 
-constexpr std::size_t kLegs = 2;                          // the first limbs
-constexpr double kFarOutside = 0.79, kMostOutside = 1.57;  // radians: 30 and 75 degrees
+constexpr std::size_t kLegs = 2;  // the first limbs
+constexpr double kFullTurn = 6.283185307179586;
+constexpr double kFarBeyond = 0.79, kMostBeyond = 1.57;  // radians: 45 and 90 degrees
 
 /// A limb in one frame, model space.
 struct LimbFrame {
@@ -104,26 +105,33 @@ private:
         const glm::dquat actual_space = is_held ? plan_.held[moved.carrier] * space : space;
         if (is_held) to_.set_rotation(moved.joint, glm::quat(glm::normalize(glm::conjugate(actual_space) * wanted)));
         if (moved.constraint == nullptr) return;
+        const glm::dquat before(to_.local_of(moved.joint).rotation);
         const double outside = constrain(*moved.constraint);
         if (outside == 0.0) return;
-        if (outside > kFarOutside && is_bend(moved.joint)) relax(*moved.constraint, outside);
+        if (outside > kFarBeyond) relax(*moved.constraint, before);
         held = glm::normalize(actual_space * glm::dquat(to_.local_of(moved.joint).rotation) * glm::conjugate(wanted));
     }
 
-    /// Returns whether it is a knee or an elbow.
-    [[nodiscard]] bool is_bend(std::uint32_t joint) const {
-        return std::any_of(plan_.limbs.begin(), plan_.limbs.end(),
-                           [joint](const LimbPlan& limb) { return limb.lower == joint; });
-    }
-
-    /// A knee or an elbow that is to turn far beyond its limits would jump from one end to the other, where both are
-    /// equally near. So the farther beyond, the nearer it is to its rest.
-    void relax(const Constraint& constraint, double outside) {
-        const double share = std::min(1.0, (outside - kFarOutside) / (kMostOutside - kFarOutside));
-        const std::uint32_t joint = constraint.joint;
-        const glm::dquat rest(plan_.target.joints()[joint].rest.rotation);
-        const glm::dquat now(to_.local_of(joint).rotation);
-        to_.set_rotation(joint, glm::quat(between(glm::normalize(now), glm::normalize(rest), share)));
+    /// A forearm or a shin that is to turn about its own axis far beyond the limits of the elbow or knee would jump
+    /// from one end to the other, where both are equally near. So the farther beyond, the nearer to rest is its turn.
+    void relax(const Constraint& constraint, const glm::dquat& wanted) {
+        const auto limb = std::find_if(plan_.limbs.begin(), plan_.limbs.end(),
+                                       [&](const LimbPlan& one) { return one.lower == constraint.joint; });
+        if (limb == plan_.limbs.end() || plan_.target.parents()[limb->end] != limb->lower) return;
+        const glm::dvec3 bone(to_.local_of(limb->end).translation);
+        if (!(glm::dot(bone, bone) > 0.0)) return;
+        const glm::dvec3 axis = glm::normalize(bone);
+        const glm::dquat back = glm::conjugate(glm::dquat(plan_.target.joints()[constraint.joint].rest.rotation));
+        const auto turn_of = [&](const glm::dquat& rotation) {
+            const glm::dquat turn = back * rotation;
+            return 2.0 * std::atan2(glm::dot(glm::dvec3(turn.x, turn.y, turn.z), axis), turn.w);
+        };
+        const glm::dquat now(to_.local_of(constraint.joint).rotation);
+        const double turn = std::remainder(turn_of(now), kFullTurn);
+        const double beyond = std::abs(std::remainder(turn_of(wanted) - turn, kFullTurn));
+        if (beyond <= kFarBeyond) return;
+        const double share = std::min(1.0, (beyond - kFarBeyond) / (kMostBeyond - kFarBeyond));
+        to_.set_rotation(constraint.joint, glm::quat(glm::normalize(now * glm::angleAxis(-share * turn, axis))));
         (void)constrain(constraint);
     }
 

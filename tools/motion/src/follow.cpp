@@ -212,7 +212,8 @@ private:
         const auto& [times, weights] = weights_over_time_;
         if (weights.empty()) return std::nullopt;
         const auto after = std::upper_bound(times.begin(), times.end(), seconds);
-        const std::size_t k = std::clamp<std::ptrdiff_t>(after - times.begin(), 1, std::ssize(times) - 1);
+        const std::size_t k =
+            std::clamp<std::size_t>(static_cast<std::size_t>(after - times.begin()), 1, times.size() - 1);
         const float share = (seconds - times[k - 1]) / (times[k] - times[k - 1]);
         for (std::size_t c = 0; c < kContacts; ++c)
             contacts[c] = weights[k - 1][c] + share * (weights[k][c] - weights[k - 1][c]);
