@@ -181,14 +181,14 @@ TEST(RetargetClips, AJumpStaysAJump) {
 }
 
 /// Stands, with the left foot lifted in the middle.
-Buffer stepper() {
+Buffer stepper(float from = 0.0f) {
     const HumanModel human(HumanSpec{.axes = 0});
     ClipSpec clip{"Step"};
     const float half = 0.5f;
     clip.tracks.push_back({TrackPath::rotation,
                            human.joint("leftUpLeg"),
                            4,
-                           {0, 0.5f, 1},
+                           {from, 0.5f, 1},
                            {0, 0, 0, 1, -std::sin(half), 0, 0, std::cos(half), 0, 0, 0, 1}});
     return file_of(human, {clip});
 }
@@ -213,6 +213,21 @@ TEST(RetargetClips, FeetAreOnTheGroundByCurvesThatCanBeEdited) {
     const test::Owned again(retargeted(counted(HumanModel(HumanSpec{.axes = 5}).spec), made, {}, other));
     EXPECT_EQ(again->clip("Step")->curves.size(), 4u);
     EXPECT_NE(other.done[1].find("feet by its contact curves"), std::string::npos) << other.done[1];
+}
+
+TEST(RetargetClips, AFootThatIsLiftedInAnInstantIsLetGoSlowly) {
+    edit::Log log;
+    const test::Owned model(
+        retargeted(counted(HumanModel(HumanSpec{.thigh = 0.3, .axes = 2}).spec), stepper(0.49f), {}, log));
+    const auto weight = [&](double seconds) {
+        float found = -1.0f;
+        EXPECT_TRUE(
+            sample_curve(*find_curve(*model->clip("Step"), "left_heel_contact"), seconds, std::span(&found, 1)));
+        return found;
+    };
+    EXPECT_EQ(weight(0.48), 1.0f);
+    EXPECT_NEAR(weight(0.52), weight(0.5) - 0.02f / 0.06f, 0.02f);
+    EXPECT_NEAR(weight(0.58), 0.0f, kMostWeight);
 }
 
 test::MeshSpec face(const std::string& name, const std::vector<std::string>& targets) {

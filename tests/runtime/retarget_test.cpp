@@ -403,6 +403,50 @@ const std::vector<HumanSpec> kBuilds{
     {.thigh = 0.5, .shin = 0.35, .is_detached = true, .axes = 6},
 };
 
+TEST(Retarget, AForearmThatTurnsRightRoundDoesNotJumpAtItsLimits) {
+    ConstraintRecord bend;
+    bend.model = static_cast<std::uint8_t>(ConstraintModel::swing_twist_pyramid);
+    bend.rotation_min = {-1.5f, -kInf, -kInf};
+    bend.rotation_max = {1.5f, kInf, kInf};
+    Human source(HumanSpec{.axes = 0}), target(HumanSpec{.axes = 0, .elbows = {bend}});
+    Retarget retarget = made(source, target, {RestPoses::measured, true, false});
+    RetargetState state;
+    double step = 0.0;
+    glm::dquat last;
+    for (int degrees = 0; degrees <= 360; degrees += 5) {
+        source.pose().set_rest();
+        source.turn_by("leftForeArm", glm::dvec3(1, 0, 0), degrees);
+        ASSERT_TRUE(bendy::retarget(target.pose(), retarget, source.pose(), state));
+        const glm::dquat now(target.pose().local(target.joint("leftForeArm")).rotation);
+        if (degrees > 0) step = std::max(step, angle_of(last, now));
+        last = now;
+        EXPECT_LT(glm::length(source.way("leftForeArm", "leftHand") - target.way("leftForeArm", "leftHand")), 1e-5);
+    }
+    EXPECT_LT(step, 3.0 * 5.0 * M_PI / 180.0);
+}
+
+TEST(Retarget, FeetOfACrouchingBodyDoNotSinkIntoTheGround) {
+    Human source(HumanSpec{}), target(HumanSpec{.thigh = 0.9, .shin = 0.3, .axes = 2});
+    Retarget retarget = made(source, target);
+    const double rest = target.place("leftFoot").y;
+    const auto crouch = [&](double degrees) {
+        source.pose().set_rest();
+        for (const char* side : {"left", "right"}) {
+            source.turn_by(std::string(side) + "UpLeg", glm::dvec3(1, 0, 0), -degrees);
+            source.turn_by(std::string(side) + "Leg", glm::dvec3(1, 0, 0), 2.0 * degrees);
+            source.level(std::string(side) + "Foot");
+        }
+        const double sunk = source.place("leftFoot").y;
+        test::local_of(source.pose(), source.joint("hips"))->translation.y -= static_cast<float>(sunk - 0.08);
+    };
+    RetargetState state;
+    for (double degrees = 0.0; degrees <= 60.0; degrees += 2.0) {
+        crouch(degrees);
+        ASSERT_TRUE(bendy::retarget(target.pose(), retarget, source.pose(), state));
+        EXPECT_GT(target.place("leftFoot").y, rest - 0.02) << degrees;
+    }
+}
+
 TEST(Retarget, FeetStandWhereTheyAre) {
     Human source(HumanSpec{});
     for (const HumanSpec& build : kBuilds) {
