@@ -215,6 +215,17 @@ TEST(RetargetClips, FeetAreOnTheGroundByCurvesThatCanBeEdited) {
     EXPECT_NE(other.done[1].find("feet by its contact curves"), std::string::npos) << other.done[1];
 }
 
+TEST(RetargetClips, AClipOfOneMomentStays) {
+    const HumanModel human(HumanSpec{});
+    ClipSpec clip = swinging(human, "Pose");
+    for (auto& track : clip.tracks) track.times = {0.25f}, track.values.resize(4);
+    clip.start = clip.end = 0.25f;
+    edit::Log log;
+    const test::Owned made(retargeted(counted(HumanModel(HumanSpec{.axes = 4}).spec), file_of(human, {clip}), {}, log));
+    EXPECT_EQ(made->clip("Pose")->start, 0.25f);
+    EXPECT_EQ(made->clip("Pose")->end, 0.25f);
+}
+
 TEST(RetargetClips, AFootThatIsLiftedInAnInstantIsLetGoSlowly) {
     edit::Log log;
     const test::Owned model(

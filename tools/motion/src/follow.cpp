@@ -211,6 +211,7 @@ private:
         }
         const auto& [times, weights] = weights_over_time_;
         if (weights.empty()) return std::nullopt;
+        if (weights.size() == 1) return weights.front();
         const auto after = std::upper_bound(times.begin(), times.end(), seconds);
         const std::size_t k =
             std::clamp<std::size_t>(static_cast<std::size_t>(after - times.begin()), 1, times.size() - 1);
