@@ -276,16 +276,18 @@ private:
         return low;
     }
 
-    /// An OFFSET of 0 0 0 says nothing of a root that each frame moves: at rest its lowest joint is then on the ground of
-    /// the motion, which is where the lowest joint is in most frames.
+    /// A root whose OFFSET has no height, and that each frame moves, would hang in the ground at rest: its lowest joint
+    /// is then on the ground of the motion, which is where the lowest joint is in most frames.
     void stand_up(double at_rest) {
+        constexpr double kNoHeight = 0.05;                                                   // of what hangs below
         const auto quarter = lows_.begin() + static_cast<std::ptrdiff_t>(lows_.size() / 4);  // in jumps it is higher
         std::nth_element(lows_.begin(), quarter, lows_.end());
         for (const Moved& each : moved_) {
             Joint& joint = scene_.joints[each.joint];
-            const bool has_height = std::find(each.channels.begin(), each.channels.end(), 1) != each.channels.end();
-            if (joint.parent == kNone && has_height && joint.rest.translation == glm::vec3(0.0f))
-                joint.rest.translation.y = static_cast<float>(*quarter - at_rest);
+            float& height = joint.rest.translation.y;
+            const bool is_moved = std::find(each.channels.begin(), each.channels.end(), 1) != each.channels.end();
+            if (joint.parent == kNone && is_moved && std::abs(height) <= kNoHeight * (height - at_rest))
+                height += static_cast<float>(*quarter - at_rest);
         }
     }
 
@@ -304,6 +306,9 @@ private:
             add_key(each.translation, time, to_array<3>(place));
             add_key(each.rotation, time, to_array<4>(glm::dvec4(turned.x, turned.y, turned.z, turned.w)));
         }
+        unseen_ += 4 * moved_.size();  // so that the work follows the size of the file
+        if (!lows_.empty() && unseen_ < scene_.joints.size()) return;
+        unseen_ = 0;
         lows_.push_back(lowest());
     }
 
@@ -351,7 +356,8 @@ private:
     std::vector<Open> open_;
     std::vector<Moved> moved_;   ///< in the order of the numbers of a frame
     std::vector<Placed> frame_;  ///< by joint, relative to its parent
-    std::vector<double> lows_;   ///< by frame: the height of the lowest joint, metres
+    std::vector<double> lows_;   ///< of frames: the height of the lowest joint, metres
+    std::size_t unseen_ = 0;     ///< joints that moved since the last of these
 };
 
 }  // namespace
