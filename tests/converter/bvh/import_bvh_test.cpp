@@ -68,6 +68,10 @@ TEST(ImportBvh, ARootWithoutAnOffsetStandsOnTheGroundOfItsMotion) {
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_NEAR(scene->joints[0].rest.translation.y, 5.0f, 1e-6);
     EXPECT_EQ(scene->joints[0].rest.translation.x, 0.0f);
+    const auto z_up = import_bvh(changed(changed(legs, "0 -2 0", "0 0 -2"), "0 -2 0", "0 0 -2") + "9 9 5 0 0",
+                                 "legs.bvh", {1.0}, report);
+    ASSERT_TRUE(z_up);
+    EXPECT_EQ(z_up->joints[0].rest.translation, glm::vec3(0, 0, 5));
     const auto placed = import_bvh(changed(legs, "0 0 0", "0 1 0") + frames, "legs.bvh", {1.0}, report);
     ASSERT_TRUE(placed);
     EXPECT_EQ(placed->joints[0].rest.translation, glm::vec3(0, 1, 0));

@@ -121,25 +121,34 @@ private:
         if (!first) return false;
         record(std::move(*first));
         for (std::size_t k = 1; k < times.size(); ++k) {
-            if (!advance(times[k], state, kHalvings)) return false;
+            if (!advance(times[k], state)) return false;
         }
         return true;
     }
 
     /// Goes on from the last sample to another time.
-    bool advance(float to, RetargetState& state, unsigned halvings) {
-        const float from = times_.back();
-        const float half = 0.5f * (from + to);
-        RetargetState after = state;
-        auto between = sample_at(half, after);
-        auto end = between ? sample_at(to, after) : std::nullopt;
-        if (!end) return false;
-        const bool has_room = half > from && half < to && times_.size() < most_;
-        if (halvings > 0 && has_room && !is_even(*between, *end))
-            return advance(half, state, halvings - 1) && advance(to, state, halvings - 1);
-        between_.push_back(std::move(between->frame));
-        record(std::move(*end));
-        state = after;
+    bool advance(float time, RetargetState& state) {
+        struct Next {
+            float time;
+            unsigned halvings;
+        };
+        std::vector<Next> next{{time, kHalvings}};  // the last one first
+        while (!next.empty()) {
+            const float from = times_.back(), to = next.back().time, half = 0.5f * (from + to);
+            RetargetState after = state;
+            auto between = sample_at(half, after);
+            auto end = between ? sample_at(to, after) : std::nullopt;
+            if (!end) return false;
+            const bool has_room = half > from && half < to && times_.size() < most_;
+            if (next.back().halvings > 0 && has_room && !is_even(*between, *end)) {
+                next.push_back({half, --next.back().halvings});
+                continue;
+            }
+            between_.push_back(std::move(between->frame));
+            record(std::move(*end));
+            state = after;
+            next.pop_back();
+        }
         return true;
     }
 

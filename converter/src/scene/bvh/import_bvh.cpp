@@ -246,7 +246,8 @@ private:
         }
         per_frame += sizeof(double);
         for (const Joint& joint : scene_.joints) frame_.push_back({joint.rest.translation, {1.0, 0.0, 0.0, 0.0}});
-        const double at_rest = lowest();
+        up_ = lowest(2) < lowest(1) ? 2 : 1;
+        const double at_rest = lowest(up_);
         std::size_t frames = 0;
         for (; !words_.is_at_end() && !moved_.empty(); ++frames) {
             if (frames == kMostFrames) fail(words_.place(), "there are too many frames");
@@ -261,8 +262,8 @@ private:
         if (frames > 0) stand_up(at_rest);
     }
 
-    /// Returns the height of the lowest joint in the frame.
-    double lowest() {
+    /// Returns the smallest coordinate of a joint in the frame.
+    [[nodiscard]] double lowest(glm::length_t axis) const {
         double low = std::numeric_limits<double>::infinity();
         std::vector<Placed> placed;
         for (std::size_t joint = 0; joint < frame_.size(); ++joint) {  // parents come first
@@ -270,7 +271,7 @@ private:
             Placed now = frame_[joint];
             if (parent != kNone)
                 now = {placed[parent].place + placed[parent].turn * now.place, placed[parent].turn * now.turn};
-            low = std::min(low, now.place.y);
+            low = std::min(low, now.place[axis]);
             placed.push_back(now);
         }
         return low;
@@ -284,8 +285,8 @@ private:
         std::nth_element(lows_.begin(), quarter, lows_.end());
         for (const Moved& each : moved_) {
             Joint& joint = scene_.joints[each.joint];
-            float& height = joint.rest.translation.y;
-            const bool is_moved = std::find(each.channels.begin(), each.channels.end(), 1) != each.channels.end();
+            float& height = joint.rest.translation[up_];
+            const bool is_moved = std::find(each.channels.begin(), each.channels.end(), up_) != each.channels.end();
             if (joint.parent == kNone && is_moved && std::abs(height) <= kNoHeight * (height - at_rest))
                 height += static_cast<float>(*quarter - at_rest);
         }
@@ -309,7 +310,7 @@ private:
         unseen_ += 4 * moved_.size();  // so that the work follows the size of the file
         if (!lows_.empty() && unseen_ < scene_.joints.size()) return;
         unseen_ = 0;
-        lows_.push_back(lowest());
+        lows_.push_back(lowest(up_));
     }
 
     template <std::size_t N>
@@ -356,6 +357,7 @@ private:
     std::vector<Open> open_;
     std::vector<Moved> moved_;   ///< in the order of the numbers of a frame
     std::vector<Placed> frame_;  ///< by joint, relative to its parent
+    glm::length_t up_ = 1;       ///< the axis along which the skeleton hangs from its root: Y or Z
     std::vector<double> lows_;   ///< of frames: the height of the lowest joint, metres
     std::size_t unseen_ = 0;     ///< joints that moved since the last of these
 };
