@@ -91,12 +91,6 @@ public:
             const Curve& curve = clip.curves[c];
             if (is_written_already(curve)) continue;
             const std::string pointer = pointer_to(curve);
-            if (pointer.empty() && curve.path.empty()) {
-                report_.warn(
-                    "curve " + quote(curve.name) + " left out: glTF has no numbers over time that belong to nothing",
-                    place + '.' + at("curves", c));
-                continue;
-            }
             if (pointer.empty() || !open_parent(root_, pointer)) {
                 report_.warn(curve.path.empty()
                                  ? "curve left out: " + quote(curve.name) + " has no path, which glTF needs"
