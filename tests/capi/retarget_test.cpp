@@ -156,7 +156,7 @@ TEST_F(CRetarget, BadArgumentsAreRefused) {
         EXPECT_EQ(bendy_retarget_pose(pose, retarget.get(), source, of, contacts, nullptr, &error), BENDY_BAD_ARGUMENT);
         return std::string(error.message);
     };
-    const std::array<float, 4> wrong{0.0f, std::numeric_limits<float>::quiet_NaN(), 0.0f, 0.0f};
+    const std::array<float, kContacts> wrong{0.0f, std::numeric_limits<float>::quiet_NaN(), 0.0f, 0.0f};
     EXPECT_EQ(refused(nullptr, from.get(), state.get(), nullptr), "pose is NULL");
     EXPECT_EQ(refused(to.get(), nullptr, state.get(), nullptr), "source is NULL");
     EXPECT_EQ(refused(to.get(), from.get(), nullptr, nullptr), "state is NULL");

@@ -17,7 +17,7 @@ sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
 from bvh_file import walk  # noqa: E402
 from chunk_file import Chunk  # noqa: E402
-from gltf_file import GltfFile  # noqa: E402
+from gltf_file import GltfFile, humans_file  # noqa: E402
 from program import SOURCE, Case, main  # noqa: E402
 
 FORMS = {"plain": [], "compact": ["--compact"], "lod": ["--lod"], "lod_compact": ["--lod", "--compact"]}
@@ -160,6 +160,22 @@ class Strip(EditCase):
             for a, b, none, sum_ in zip(one, other, rest, both):
                 for x, y, z, w in zip(a["positions"], b["positions"], none["positions"], sum_["positions"]):
                     self.assertAlmostEqual(x + y - z, w, delta=2e-6)
+
+    def test_of_two_humans_in_a_file_it_is_said_which_one_is_taken(self):
+        both = humans_file(self.folder / "both.gltf", ["Anna", "Bert"])
+        (self.folder / "bert.json").write_text('{"bendy_rig": 1, "roles": {"hips": "#18"}}')
+        walk = f"{self.made('mannequin')}:Walk"
+        for arguments, taken, other in (([], '"Anna" (#0)', '"Bert" (#17)'), (["--rig", "bert.json"], '"Bert" (#17)', '"Anna" (#0)')):
+            result = self.bendy("convert", both, "-o", "both.bendy", *arguments)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            is_told = b"2 characters, below the joints 'Anna' (#0) and 'Bert' (#17)" in result.stderr
+            self.assertEqual(is_told, not arguments, result.stderr)
+            result = self.bendy("edit", "both.bendy", "-o", "out.bendy", "--retarget", walk)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(f"the target is the character below the joint {taken}; its file has {other} beside it", result.stderr.decode())
+        alone = humans_file(self.folder / "alone.gltf", ["Anna"])
+        result = self.bendy("convert", alone, "-o", "alone.bendy")
+        self.assertEqual(result.stderr, b"")
 
     def test_mistakes_are_explained(self):
         source = self.made("mannequin")

@@ -27,9 +27,35 @@ class GltfFile:
 
     def write(self, path):
         uri = "data:application/octet-stream;base64," + base64.b64encode(self.data).decode("ascii")
-        self.document["buffers"] = [{"byteLength": len(self.data), "uri": uri}]
+        if self.data:
+            self.document["buffers"] = [{"byteLength": len(self.data), "uri": uri}]
+        self.document = {key: value for key, value in self.document.items() if value != []}
         path.write_text(json.dumps(self.document), encoding="utf-8")
         return path
+
+
+HUMAN = {"Hips": (None, (0, 1, 0)), "Spine": ("Hips", (0, 1.1, 0)), "Neck": ("Spine", (0, 1.5, 0)), "Head": ("Neck", (0, 1.6, 0)),
+         **{side + part: (None if parent is None else parent if parent in ("Hips", "Spine") else side + parent, (sign * x, y, z))
+            for side, sign in (("Left", 1), ("Right", -1))
+            for part, parent, (x, y, z) in (
+                ("Arm", "Spine", (0.2, 1.45, 0)), ("ForeArm", "Arm", (0.5, 1.45, 0)), ("Hand", "ForeArm", (0.75, 1.45, 0)),
+                ("UpLeg", "Hips", (0.1, 0.95, 0)), ("Leg", "UpLeg", (0.1, 0.5, 0)), ("Foot", "Leg", (0.1, 0.1, 0)))}}
+
+
+def humans_file(path, roots):
+    """Joints of a human below each root, side by side, without a mesh."""
+    nodes = []
+    for number, root in enumerate(roots):
+        first = len(nodes)
+        nodes.append({"name": root, "translation": [2 * number, 0, 0], "children": [first + 1]})
+        order = list(HUMAN)
+        for name, (parent, place) in HUMAN.items():
+            above = HUMAN[parent][1] if parent else (0, 0, 0)
+            children = [first + 1 + order.index(each) for each in order if HUMAN[each][0] == name]
+            nodes.append({"name": name, "translation": [a - b for a, b in zip(place, above)],
+                          **({"children": children} if children else {})})
+    roots = [number for number, node in enumerate(nodes) if node["name"] in roots]
+    return GltfFile(nodes=nodes, scenes=[{"nodes": roots}]).write(path)
 
 
 def named_file(path, names):

@@ -1,18 +1,11 @@
 #pragma once
 
-#include "runtime/build_model.h"
+#include "runtime/body_model.h"
 
-#include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <map>
-#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -36,31 +29,19 @@ struct HumanSpec {
 };
 
 /// A human made of joints, standing on the ground. Joints lie at the places that the spec says, with axes of their own.
-class HumanModel {
+class HumanModel : public BodyModel {
 public:
-    explicit HumanModel(const HumanSpec& human) : human_(human), random_(human.axes) {
+    explicit HumanModel(const HumanSpec& human)
+        : BodyModel({human.facing, human.is_z_up, human.axes, human.prefix}), human_(human) {
         add_trunk();
         for (const double side : {1.0, -1.0}) add_arm(side);
         for (const double side : {1.0, -1.0}) add_leg(side);
-        if (human.has_roles) spec.more.push_back(make_leaf(FourCC("ROLE"), role_bytes()));
+        if (human.has_roles) store_roles();
     }
-
-    [[nodiscard]] Buffer file() const { return build_file(spec); }
-    [[nodiscard]] std::uint32_t joint(const std::string& name) const { return numbers_.at(name); }
-
-    ModelSpec spec;
 
 private:
     void add_trunk() {
         const double hips = human_.thigh + human_.shin + 0.08;
-        const glm::dquat z_up = glm::angleAxis(-M_PI / 2.0, glm::dvec3(1, 0, 0));
-        turns_.push_back(human_.is_z_up ? z_up : glm::dquat(1, 0, 0, 0));
-        places_.emplace_back(0.0);
-        RestRecord root;
-        root.rotation = numbers(turns_[0]);
-        if (human_.is_z_up) root.scale = {0.01f, 0.01f, 0.01f};
-        spec.joints.push_back({kNone, root, {}, human_.prefix + "root"});
-        numbers_["root"] = 0;
         trunk_ = add("hips", 0, {0, hips + 0.05, 0}, Role::hips);
         hips_ = trunk_;
         const Role roles[] = {Role::spine, Role::chest, Role::upper_chest};
@@ -123,52 +104,8 @@ private:
         throw std::runtime_error(other);
     }
 
-    /// A joint without a role is a prop, whose name has no prefix.
-    /// \param place  metres, in axes of the body
-    std::uint32_t add(const std::string& name, std::uint32_t parent, const glm::dvec3& place, Role role) {
-        const glm::dquat facing = glm::angleAxis(human_.facing * M_PI / 180.0, glm::dvec3(0, 1, 0));
-        const glm::dquat turn = human_.axes == 0 ? facing : glm::normalize(facing * own_axes());
-        const glm::dvec3 there = facing * place;
-        RestRecord rest;
-        rest.rotation = numbers(glm::conjugate(turns_[parent]) * turn);
-        const glm::dvec3 way = glm::conjugate(turns_[parent]) * (there - places_[parent]);
-        const double unit = human_.is_z_up ? 100.0 : 1.0;
-        rest.translation = {static_cast<float>(unit * way.x), static_cast<float>(unit * way.y),
-                            static_cast<float>(unit * way.z)};
-        const auto number = static_cast<std::uint32_t>(spec.joints.size());
-        spec.joints.push_back({parent, rest, {}, role == Role::none ? name : human_.prefix + name});
-        places_.push_back(there);
-        turns_.push_back(turn);
-        numbers_[name] = number;
-        if (role != Role::none) roles_.push_back({number, static_cast<std::uint16_t>(role), 0});
-        return number;
-    }
-
-    glm::dquat own_axes() {
-        std::normal_distribution<double> number;
-        return glm::normalize(glm::dquat(number(random_), number(random_), number(random_), number(random_)));
-    }
-
-    static std::array<float, 4> numbers(const glm::dquat& q) {
-        return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), static_cast<float>(q.w)};
-    }
-
-    [[nodiscard]] Buffer role_bytes() const {
-        Buffer bytes;
-        for (const RoleRecord& role : roles_) {
-            const auto one = bytes_of(role);
-            bytes.insert(bytes.end(), one.begin(), one.end());
-        }
-        return bytes;
-    }
-
     HumanSpec human_;
-    std::mt19937 random_;
     std::uint32_t trunk_ = 0, hips_ = 0;
-    std::vector<glm::dvec3> places_;  // of joints at rest, model space
-    std::vector<glm::dquat> turns_;
-    std::vector<RoleRecord> roles_;
-    std::map<std::string, std::uint32_t> numbers_;
 };
 
 }  // namespace bendy::test

@@ -1315,8 +1315,9 @@ typedef struct bendy_retarget_options {
  * thread needs one of its own; characters of a thread share one. */
 typedef struct bendy_retarget bendy_retarget;
 
-/* Both models need the roles of hips, head, upper and lower arms and legs, hands and feet; otherwise the error says
- * what is missing. `options` may be NULL. */
+/* Both models are humans, animals on four legs, or animals on two. A human needs the roles of hips, head, upper and
+ * lower arms and legs, hands and feet; an animal those of hips, and of three joints or more of each leg. Otherwise the
+ * error says what is missing. `options` may be NULL. */
 BENDY_API bendy_retarget* bendy_retarget_new(const bendy_model* source, const bendy_model* target,
                                              const bendy_retarget_options* options /* or NULL */, bendy_error* error);
 BENDY_API void bendy_retarget_free(bendy_retarget* retarget); /* does nothing for NULL */
@@ -1343,8 +1344,8 @@ typedef struct bendy_retargeted {
     float missed;          /* metres: most that a hand or foot is away from where it was to be */
     uint32_t missed_joint; /* of the target, or BENDY_NONE */
     float lowered;         /* metres: by how much the hips were lowered so that the feet reach the ground */
-    float contacts[4];     /* 0 in the air, 1 on the ground: left heel, left toes, right heel, right toes; as given or,
-                              otherwise, as found */
+    float contacts[8];     /* 0 in the air, 1 on the ground: left heel, left toes, right heel, right toes; the same of
+                              an animal's front feet; as given or, otherwise, as found */
 } bendy_retargeted;
 
 /* Sets `pose`, of the target, to a pose of the source. Where neither a constraint nor a contact acts, limbs have the
@@ -1354,7 +1355,7 @@ typedef struct bendy_retargeted {
  * is then at rest. */
 BENDY_API bendy_status bendy_retarget_pose(bendy_pose* pose, bendy_retarget* retarget,
                                            bendy_pose* source /* of another model */, bendy_retarget_state* state,
-                                           const float contacts[4] /* or NULL */,
+                                           const float contacts[8] /* or NULL */,
                                            bendy_retargeted* result /* or NULL */, bendy_error* error);
 
 /* ---- Levels of detail ------------------------------------------------------------------------------------ */

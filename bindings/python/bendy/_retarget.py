@@ -20,7 +20,7 @@ class Retargeted(c.Retargeted):
     turned: radians, most that a constraint turned a joint away from where it was to be; turned_joint: its number in the target, or
     None. missed: metres, most that a hand or foot is away from where it was to be; missed_joint: as turned_joint. lowered: metres, by
     how much the hips were lowered so that the feet reach the ground. contacts: how firmly left heel, left toes, right heel and right
-    toes stand, 0 in the air to 1 on the ground.
+    toes stand, and the same of an animal's front feet, 0 in the air to 1 on the ground.
     """
 
     def __repr__(self) -> str:
@@ -46,8 +46,9 @@ class Retarget:
     follows: "bendy_retarget"
 
     def __init__(self, source: Model, target: Model, **options: "bendy_retarget_options") -> None:
-        """source: the model whose poses are taken. target: the one that moves. Both need the roles of hips, head, upper and lower arms and
-        legs, hands and feet.
+        """source: the model whose poses are taken. target: the one that moves. Both are humans, animals on four legs, or
+        animals on two. A human needs the roles of hips, head, upper and lower arms and legs, hands and feet; an animal those of hips, and
+        of three joints or more of each leg.
 
         **options
 
@@ -60,9 +61,9 @@ class Retarget:
         the source's. What a constraint holds back, the joints below make up for as far as theirs allow. Feet that stand on the ground
         are then brought to their places by IK.
 
-        state: the character's own. contacts: (4,), as in Retargeted; None: found by the height of heel and toes. Raises ValueError; if a
+        state: the character's own. contacts: (8,), as in Retargeted; None: found by the height of heel and toes. Raises ValueError; if a
         number is not finite, the pose is then at rest."""
-        given = None if contacts is None else floats(contacts, (4,), "contacts")
+        given = None if contacts is None else floats(contacts, (8,), "contacts")
         return c.retarget_pose(pose._handle, self._handle, source._handle, state._handle, given, Retargeted())
 
     @property

@@ -29,7 +29,8 @@ export class Retarget extends MadeRetarget {
   readonly source: Model;
 
   /**
-   * Both models need the roles of hips, head, upper and lower arms and legs, hands and feet. Throws BAD_ARGUMENT, with a message that
+   * Both models are humans, animals on four legs, or animals on two. A human needs the roles of hips, head, upper and lower arms and
+   * legs, hands and feet; an animal those of hips, and of three joints or more of each leg. Throws BAD_ARGUMENT, with a message that
    * says what is missing; OUT_OF_MEMORY.
    */
   constructor(source: Model, target: Model, options: RetargetOptions = {}) {
@@ -42,8 +43,8 @@ export class Retarget extends MadeRetarget {
   /**
    * Sets a pose of `model` to a pose of `source`. Where neither a constraint nor a contact acts, limbs have the directions of the
    * source's. Feet that stand on the ground are brought to their places by IK. `state` is the character's own. `contacts` says how
-   * firmly left heel, left toes, right heel and right toes stand, from 0 in the air to 1; if not given, they are found by the
-   * height of heel and toes. Throws BAD_ARGUMENT, and for numbers that are not finite the pose is then at rest.
+   * firmly left heel, left toes, right heel and right toes stand, then the same of an animal's front feet, from 0 in the air to 1; if
+   * not given, they are found by the height of heel and toes. Throws BAD_ARGUMENT, and for numbers that are not finite the pose is then at rest.
    */
   apply(pose: Pose, source: Pose, state: RetargetState, contacts?: ArrayLike<number>): Retargeted {
     return this.runtime.calls.bendy_retarget_pose(pose, this, source, state, contacts);

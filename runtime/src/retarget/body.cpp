@@ -4,7 +4,11 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
 
 namespace bendy {
 namespace {
@@ -24,6 +28,12 @@ constexpr Role kNeeded[] = {Role::hips,
                             Role::right_lower_arm,
                             Role::right_hand};
 
+constexpr std::array kLegs{Role::left_hind_leg, Role::right_hind_leg, Role::left_front_leg, Role::right_front_leg};
+constexpr std::size_t kFewest = 3;                // joints of a leg
+constexpr double kUpright = 0.82, kAhead = 0.94;  // 35 and 20 degrees
+constexpr auto kLimbRoles =
+    static_cast<std::size_t>(Role::right_hand) - static_cast<std::size_t>(Role::left_upper_leg) + 1;
+
 /// Returns the coordinate axis nearest to a unit vector if it is within the angle; otherwise the vector.
 glm::dvec3 snapped(const glm::dvec3& v, double cosine) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -39,6 +49,36 @@ double distance(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::length(b - a);
 }
 
+std::span<const Role> leg_roles_of(BodyKind kind) {
+    return std::span(kLegs).first(kind == BodyKind::human ? 0 : kind == BodyKind::two_legs ? 2 : 4);
+}
+
+/// Legs of an animal as chains, and what is known of it before they are divided.
+struct LegChains {
+    std::vector<std::vector<std::uint32_t>> legs;
+    glm::dvec3 up{0.0}, ahead{0.0};  ///< unit
+    double ground = std::numeric_limits<double>::infinity();
+};
+
+/// Finds where a leg begins and where its foot is.
+Limb divide_leg(const Body& body, const LegChains& standing, std::size_t leg) {
+    Limb limb;
+    limb.joints = standing.legs[leg];
+    // A shoulder blade runs forward and the upper arm back, a pelvis back and the thigh forward.
+    constexpr double kSlanted = 0.3;  // of the bone's length
+    const glm::dvec3 first = body.place(limb.joints[1]) - body.place(limb.joints[0]);
+    const double ahead = glm::dot(first, standing.ahead) * (leg < 2 ? -1.0 : 1.0);
+    if (limb.joints.size() > kFewest && ahead > kSlanted * glm::length(first)) {
+        limb.girdle = {limb.joints.front()};
+        limb.joints.erase(limb.joints.begin());
+    }
+    constexpr double kLow = 0.25;  // of the height of hip or shoulder
+    const auto height = [&](std::uint32_t joint) { return glm::dot(standing.up, body.place(joint)) - standing.ground; };
+    while (limb.foot + 1 < limb.joints.size() && !(height(limb.foot_joint()) < kLow * height(limb.upper())))
+        ++limb.foot;
+    return limb;
+}
+
 }  // namespace
 
 Body::Body(const Model& model)
@@ -47,6 +87,12 @@ Body::Body(const Model& model)
         has_role_[role.joint] = true;
         if (role.role < by_role_.size()) by_role_[role.role] = role.joint;
     }
+    const auto has_legs = [&](Role left, Role right) { return !chain(left).empty() || !chain(right).empty(); };
+    const auto limbs = std::span(by_role_).subspan(static_cast<std::size_t>(Role::left_upper_leg), kLimbRoles);
+    const bool has_limb = std::any_of(limbs.begin(), limbs.end(), [](std::uint32_t joint) { return joint != kNone; });
+    if (!has_limb && has_legs(Role::left_front_leg, Role::right_front_leg)) kind_ = BodyKind::four_legs;
+    if (!has_limb && kind_ == BodyKind::human && has_legs(Role::left_hind_leg, Role::right_hind_leg))
+        kind_ = BodyKind::two_legs;
     const auto joints = model.joints();
     rest_.reserve(joints.size());
     turns_.reserve(joints.size());
@@ -83,8 +129,12 @@ std::vector<std::uint32_t> Body::chain(Role role) const {
 
 std::vector<Role> Body::missing() const {
     std::vector<Role> missing;
-    for (const Role role : kNeeded) {
+    const std::span<const Role> needed(kNeeded);
+    for (const Role role : kind_ == BodyKind::human ? needed : needed.first(1)) {
         if (joint(role) == kNone) missing.push_back(role);
+    }
+    for (const Role role : leg_roles_of(kind_)) {
+        if (chain(role).size() < kFewest) missing.push_back(role);
     }
     return missing;
 }
@@ -102,19 +152,53 @@ glm::dquat Body::space(std::uint32_t joint) const {
     return joint == kNone ? glm::dquat(1.0, 0.0, 0.0, 0.0) : turns_[joint] * flip(joint);
 }
 
+void Body::find_limbs() {
+    if (kind_ == BodyKind::human) {
+        limbs_.resize(4);
+        limbs_[0].joints = joints({Role::left_upper_leg, Role::left_lower_leg, Role::left_foot, Role::left_toes});
+        limbs_[1].joints = joints({Role::right_upper_leg, Role::right_lower_leg, Role::right_foot, Role::right_toes});
+        limbs_[2].joints = joints({Role::left_upper_arm, Role::left_lower_arm, Role::left_hand});
+        limbs_[3].joints = joints({Role::right_upper_arm, Role::right_lower_arm, Role::right_hand});
+        limbs_[2].is_leg = limbs_[3].is_leg = false;
+        return;
+    }
+    LegChains standing;
+    glm::dvec3 up(0.0), left(0.0);
+    for (const Role role : leg_roles_of(kind_)) {
+        const std::vector<std::uint32_t>& leg = standing.legs.emplace_back(chain(role));
+        up += place(leg.front()) - place(leg.back());
+        const double side = standing.legs.size() % 2 == 1 ? 1.0 : -1.0;
+        for (const std::uint32_t joint : leg) left += side / static_cast<double>(leg.size()) * place(joint);
+    }
+    standing.up = snapped(glm::normalize(up), kUpright);
+    standing.ahead = glm::normalize(glm::cross(left, standing.up));
+    for (const auto& leg : standing.legs) {
+        for (const std::uint32_t joint : leg)
+            standing.ground = std::min(standing.ground, glm::dot(standing.up, place(joint)));
+    }
+    for (std::size_t leg = 0; leg < standing.legs.size(); ++leg) limbs_.push_back(divide_leg(*this, standing, leg));
+}
+
 bool Body::measure() {
-    const glm::dvec3 hips = 0.5 * (place(Role::left_upper_leg) + place(Role::right_upper_leg));
-    const glm::dvec3 feet = 0.5 * (place(Role::left_foot) + place(Role::right_foot));
-    const glm::dvec3 across = place(Role::left_upper_leg) - place(Role::right_upper_leg) + place(Role::left_upper_arm) -
-                              place(Role::right_upper_arm);
-    const glm::dvec3 along = place(Role::head) - feet;
-    leg_ = 0.5 * (distance(place(Role::left_upper_leg), place(Role::left_lower_leg)) +
-                  distance(place(Role::left_lower_leg), place(Role::left_foot)) +
-                  distance(place(Role::right_upper_leg), place(Role::right_lower_leg)) +
-                  distance(place(Role::right_lower_leg), place(Role::right_foot)));
+    find_limbs();
+    const glm::dvec3 hips = 0.5 * (place(limbs_[0].upper()) + place(limbs_[1].upper()));
+    const glm::dvec3 feet = 0.5 * (place(limbs_[0].foot_joint()) + place(limbs_[1].foot_joint()));
+    glm::dvec3 across(0.0), tops(0.0), bottoms(0.0);
+    for (std::size_t left = 0; left < limbs_.size(); left += 2)
+        across = across + place(limbs_[left].upper()) - place(limbs_[left + 1].upper());
+    for (const Limb& limb : limbs_) {
+        tops += place(limb.upper()) / static_cast<double>(limbs_.size());
+        bottoms += place(limb.foot_joint()) / static_cast<double>(limbs_.size());
+    }
+    const glm::dvec3 along = kind_ == BodyKind::human ? place(Role::head) - feet : tops - bottoms;
+    leg_ = 0.0;
+    for (std::size_t leg = 0; leg < 2; ++leg) {
+        const Limb& limb = limbs_[leg];
+        for (std::size_t k = 0; k < limb.foot; ++k) leg_ += distance(place(limb.joints[k]), place(limb.joints[k + 1]));
+    }
+    leg_ *= 0.5;
     if (!(leg_ > 1e-9) || !std::isfinite(leg_)) return false;
     if (!(glm::length(along) > 1e-3 * leg_) || !std::isfinite(glm::length(along))) return false;
-    constexpr double kUpright = 0.82, kAhead = 0.94;  // 35 and 20 degrees
     const glm::dvec3 up = snapped(glm::normalize(along), kUpright);
     const glm::dvec3 left = across - up * glm::dot(up, across);
     if (!(glm::length(left) > 1e-3 * leg_) || !std::isfinite(glm::length(left))) return false;

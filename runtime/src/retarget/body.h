@@ -7,11 +7,25 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace bendy {
+
+/// A leg or an arm.
+struct Limb {
+    std::vector<std::uint32_t> girdle;  ///< what carries it: an animal's shoulder blade or pelvis
+    /// From hip or shoulder outwards: three or more, the last of which are those of the paw.
+    std::vector<std::uint32_t> joints;
+    std::size_t foot = 2;  ///< among the joints: foot or hand
+    bool is_leg = true;
+
+    [[nodiscard]] std::uint32_t upper() const { return joints.front(); }
+    [[nodiscard]] std::uint32_t foot_joint() const { return joints[foot]; }
+    /// kNone if nothing is below the foot.
+    [[nodiscard]] std::uint32_t toes() const { return foot + 1 < joints.size() ? joints.back() : kNone; }
+};
 
 /// A model as a body: what its joints are, and where they are at rest, in model space.
 class Body {
@@ -26,7 +40,8 @@ public:
     /// Returns the joints of a chain, from the body outwards.
     [[nodiscard]] std::vector<std::uint32_t> chain(Role role) const;
     [[nodiscard]] bool has_role(std::uint32_t joint) const { return has_role_[joint]; }
-    /// The roles that retargeting needs and the model does not have.
+    [[nodiscard]] BodyKind kind() const { return kind_; }
+    /// The roles that retargeting needs and the model does not have, or has too few joints of.
     [[nodiscard]] std::vector<Role> missing() const;
 
     [[nodiscard]] const glm::dmat4& rest(std::uint32_t joint) const { return rest_[joint]; }
@@ -48,16 +63,22 @@ public:
     /// exactly.
     [[nodiscard]] const glm::dquat& axes() const { return axes_; }
     [[nodiscard]] glm::dvec3 up() const { return axes_ * glm::dvec3(0.0, 1.0, 0.0); }
-    [[nodiscard]] double leg() const { return leg_; }  ///< metres from hip by knee to ankle
-    /// Below the middle of the hip joints, at the height of the ankles.
+    /// Left leg, right leg, left arm, right arm. Of an animal, the hind legs, then the front legs if it has any.
+    [[nodiscard]] const std::vector<Limb>& limbs() const { return limbs_; }
+    [[nodiscard]] double leg() const { return leg_; }  ///< metres from hip by knee to foot, of a hind leg
+    /// Below the middle of the hip joints, at the height of the feet.
     [[nodiscard]] const glm::dvec3& ground() const { return ground_; }
 
 private:
+    void find_limbs();
+
     Model model_;
+    BodyKind kind_ = BodyKind::human;
     std::vector<std::uint32_t> by_role_;
     std::vector<bool> has_role_;
     std::vector<glm::dmat4> rest_;
     std::vector<glm::dquat> turns_;
+    std::vector<Limb> limbs_;
     glm::dquat axes_{1.0, 0.0, 0.0, 0.0};
     double leg_ = 0.0;
     glm::dvec3 ground_{0.0};

@@ -15,21 +15,13 @@
 namespace bendy {
 namespace {
 
-/// A bone of a limb, from its joint to the next. The last one has no end, and is aligned as the one before.
+/// A bone of a finger, from its joint to the next. The last one has no end, and is aligned as the one before.
 struct Bone {
     Role joint;
     Role end;
 };
 
 constexpr Bone kBones[] = {
-    {Role::left_upper_leg, Role::left_lower_leg},
-    {Role::left_lower_leg, Role::left_foot},
-    {Role::right_upper_leg, Role::right_lower_leg},
-    {Role::right_lower_leg, Role::right_foot},
-    {Role::left_upper_arm, Role::left_lower_arm},
-    {Role::left_lower_arm, Role::left_hand},
-    {Role::right_upper_arm, Role::right_lower_arm},
-    {Role::right_lower_arm, Role::right_hand},
     {Role::left_thumb_metacarpal, Role::left_thumb_proximal},
     {Role::left_thumb_proximal, Role::left_thumb_distal},
     {Role::left_index_proximal, Role::left_index_intermediate},
@@ -52,7 +44,7 @@ constexpr Bone kBones[] = {
     {Role::right_little_intermediate, Role::right_little_distal},
 };
 
-/// Ends of limbs, which are aligned as the bone above.
+/// Ends of fingers, which are aligned as the bone above.
 constexpr Bone kEnds[] = {
     {Role::left_thumb_distal, Role::left_thumb_proximal},
     {Role::left_index_distal, Role::left_index_intermediate},
@@ -64,8 +56,6 @@ constexpr Bone kEnds[] = {
     {Role::right_middle_distal, Role::right_middle_intermediate},
     {Role::right_ring_distal, Role::right_ring_intermediate},
     {Role::right_little_distal, Role::right_little_intermediate},
-    {Role::left_toes, Role::left_foot},
-    {Role::right_toes, Role::right_foot},
 };
 
 struct Hand {
@@ -122,6 +112,29 @@ public:
         }
     }
 
+    /// Pairs the joints of a limb from hip or shoulder outwards, and those that carry it from there inwards.
+    void pair_limb(const Limb& from, const Limb& to) {
+        const std::size_t carriers = std::min(from.girdle.size(), to.girdle.size());
+        for (std::size_t k = 1; k <= carriers; ++k)
+            pair(to.girdle[to.girdle.size() - k], from.girdle[from.girdle.size() - k]);
+        for (std::size_t k = 0; k < std::min(from.joints.size(), to.joints.size()); ++k)
+            pair(to.joints[k], from.joints[k]);
+    }
+
+    /// Where one of the two has a foot already, the other's joint is held as a foot too.
+    void align_limb(const Limb& from, const Limb& to) {
+        const std::size_t foot = std::min(from.foot, to.foot);
+        for (std::size_t k = 0; k < foot; ++k) {
+            align(to.joints[k], source_.place(from.joints[k + 1]) - source_.place(from.joints[k]),
+                  target_.place(to.joints[k + 1]) - target_.place(to.joints[k]));
+        }
+        if (!from.is_leg) return;
+        align(to.joints[foot], heading_of(source_, from, foot), heading_of(target_, to, foot));
+        for (std::size_t k = foot + 1; k < to.joints.size(); ++k) {
+            if (is_paired(to.joints[k])) pairs_[to.joints[k]].align = pairs_[to.joints[k - 1]].align;
+        }
+    }
+
     void align_bone(const Bone& bone) {
         const std::uint32_t joint = target_.joint(bone.joint);
         if (!is_paired(joint)) return;
@@ -140,19 +153,6 @@ public:
             if (source_.joint(finger) == kNone || target_.joint(finger) == kNone) continue;
             return align_bone({hand.hand, finger});
         }
-    }
-
-    /// Feet are flat on the ground at rest, so only their headings may differ.
-    void align_foot(Role foot, Role toes) {
-        const auto heading = [&](const Body& body) -> std::optional<glm::dvec3> {
-            const auto way = way_of(body, foot, toes);
-            if (!way) return std::nullopt;
-            const glm::dvec3 flat = *way - body.up() * glm::dot(body.up(), *way);
-            constexpr double kSteep = 0.2;  // of its length
-            if (!(glm::length(flat) > kSteep * glm::length(*way))) return std::nullopt;
-            return flat;
-        };
-        if (is_paired(target_.joint(foot))) align(target_.joint(foot), heading(source_), heading(target_));
     }
 
     /// Chains of the same number of joints.
@@ -207,6 +207,16 @@ private:
         is_used_[a] = true;
     }
 
+    /// Feet are flat on the ground at rest, so only their headings may differ.
+    static std::optional<glm::dvec3> heading_of(const Body& body, const Limb& limb, std::size_t foot) {
+        if (foot + 1 >= limb.joints.size()) return std::nullopt;
+        const glm::dvec3 way = body.place(limb.joints.back()) - body.place(limb.joints[foot]);
+        const glm::dvec3 flat = way - body.up() * glm::dot(body.up(), way);
+        constexpr double kSteep = 0.2;  // of its length
+        if (!(glm::length(flat) > kSteep * glm::length(way))) return std::nullopt;
+        return flat;
+    }
+
     static std::optional<glm::dvec3> way_of(const Body& body, Role from, Role to) {
         if (body.joint(from) == kNone || body.joint(to) == kNone) return std::nullopt;
         return body.place(to) - body.place(from);
@@ -246,8 +256,7 @@ private:
     std::vector<bool> is_used_;
 };
 
-constexpr Role kChains[] = {Role::tail,           Role::left_front_leg, Role::right_front_leg, Role::left_hind_leg,
-                            Role::right_hind_leg, Role::left_wing,      Role::right_wing};
+constexpr Role kChains[] = {Role::tail, Role::left_wing, Role::right_wing};
 
 std::vector<std::uint32_t> column(const Body& body, std::initializer_list<Role> singles, Role chain) {
     std::vector<std::uint32_t> joints = body.joints(singles);
@@ -272,12 +281,14 @@ std::vector<JointPair> pair_joints(const Body& source, const Body& target, const
     }
     for (auto role = static_cast<std::uint16_t>(Role::hips); role < static_cast<std::uint16_t>(kFirstChainRole); ++role)
         pairs.pair_single(static_cast<Role>(role));
+    for (std::size_t limb = 0; limb < target.limbs().size(); ++limb)
+        pairs.pair_limb(source.limbs()[limb], target.limbs()[limb]);
     for (const Role role : kChains) pairs.pair_column(source.chain(role), target.chain(role));
     if (!are_alike) {
+        for (std::size_t limb = 0; limb < target.limbs().size(); ++limb)
+            pairs.align_limb(source.limbs()[limb], target.limbs()[limb]);
         for (const Bone& bone : kBones) pairs.align_bone(bone);
         for (const Hand& hand : kHands) pairs.align_hand(hand);
-        pairs.align_foot(Role::left_foot, Role::left_toes);
-        pairs.align_foot(Role::right_foot, Role::right_toes);
         for (const Bone& end : kEnds) pairs.align_as(end.joint, end.end);
         for (const Role role : kChains) pairs.align_chain(source.chain(role), target.chain(role));
     }

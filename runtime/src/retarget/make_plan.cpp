@@ -11,6 +11,7 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -56,6 +57,7 @@ private:
         plan_.up = target_.up();
         plan_.source_leg = source_.leg();
         plan_.leg = target_.leg();
+        plan_.is_human = target_.kind() == BodyKind::human;
         if (plan_.options.rest_poses == RestPoses::measured) {
             map.scale = target_.leg() / source_.leg();
             map.from = source_.ground();
@@ -78,6 +80,7 @@ private:
             need(pair.a);
             need(pair.b);
         }
+        for (const Limb& limb : source_.limbs()) need(limb.foot_joint());
         turn_of_.assign(parents.size(), kNone);
         for (std::uint32_t joint = 0; joint < parents.size(); ++joint) {
             if (!is_needed[joint]) continue;
@@ -170,9 +173,9 @@ private:
         hips.joint = joint;
         hips.source = {source_.joint(Role::hips), source_.joint(Role::hips)};
         if (plan_.options.rest_poses == RestPoses::measured) {
-            hips.source = {source_.joint(Role::left_upper_leg), source_.joint(Role::right_upper_leg)};
-            hips.middle = 0.5 * (place_in(joint, target_.joint(Role::left_upper_leg)) +
-                                 place_in(joint, target_.joint(Role::right_upper_leg)));
+            const std::vector<Limb>& limbs = target_.limbs();
+            hips.source = {source_.limbs()[0].upper(), source_.limbs()[1].upper()};
+            hips.middle = 0.5 * (place_in(joint, limbs[0].upper()) + place_in(joint, limbs[1].upper()));
         }
         const auto parents = plan_.target.parents();
         for (std::uint32_t above = parents[joint]; above != kNone; above = parents[above]) hips.above.push_back(above);
@@ -180,24 +183,17 @@ private:
     }
 
     void find_detached() {
-        constexpr std::array<std::pair<Role, Role>, 12> kHeld{{{Role::hips, Role::left_upper_leg},
-                                                               {Role::hips, Role::right_upper_leg},
-                                                               {Role::left_upper_leg, Role::left_lower_leg},
-                                                               {Role::right_upper_leg, Role::right_lower_leg},
-                                                               {Role::left_lower_leg, Role::left_foot},
-                                                               {Role::right_lower_leg, Role::right_foot},
-                                                               {Role::left_foot, Role::left_toes},
-                                                               {Role::right_foot, Role::right_toes},
-                                                               {Role::left_upper_arm, Role::left_lower_arm},
-                                                               {Role::right_upper_arm, Role::right_lower_arm},
-                                                               {Role::left_lower_arm, Role::left_hand},
-                                                               {Role::right_lower_arm, Role::right_hand}}};
-        for (const auto& [by, role] : kHeld) {
-            const std::uint32_t carrier = target_.joint(by), joint = target_.joint(role);
-            if (joint == kNone || links_between(carrier, joint) != 0) continue;
-            if (moved_of_[joint] != kNone && plan_.moved[moved_of_[joint]].is_copy) continue;
-            plan_.detached.push_back({joint, carrier, place_in(carrier, joint)});
+        for (std::size_t k = 0; k < target_.limbs().size(); ++k) {
+            const Limb& limb = target_.limbs()[k];
+            if (k < 2) add_detached(target_.joint(Role::hips), limb.upper());
+            for (std::size_t j = 1; j < limb.joints.size(); ++j) add_detached(limb.joints[j - 1], limb.joints[j]);
         }
+    }
+
+    void add_detached(std::uint32_t carrier, std::uint32_t joint) {
+        if (links_between(carrier, joint) != 0) return;
+        if (moved_of_[joint] != kNone && plan_.moved[moved_of_[joint]].is_copy) return;
+        plan_.detached.push_back({joint, carrier, place_in(carrier, joint)});
     }
 
     /// Returns where a joint of the target is at rest, in the space of another one.
@@ -207,12 +203,12 @@ private:
 
     void make_limbs() {
         const glm::dvec3 ahead = target_.axes() * glm::dvec3(0.0, 0.0, 1.0);
-        make_limb(plan_.limbs[0], {Role::left_upper_leg, Role::left_lower_leg, Role::left_foot}, ahead);
-        make_limb(plan_.limbs[1], {Role::right_upper_leg, Role::right_lower_leg, Role::right_foot}, ahead);
-        make_limb(plan_.limbs[2], {Role::left_upper_arm, Role::left_lower_arm, Role::left_hand}, -ahead);
-        make_limb(plan_.limbs[3], {Role::right_upper_arm, Role::right_lower_arm, Role::right_hand}, -ahead);
-        make_foot(plan_.feet[0], Role::left_foot, Role::left_toes);
-        make_foot(plan_.feet[1], Role::right_foot, Role::right_toes);
+        plan_.limbs.resize(target_.limbs().size());
+        for (std::size_t k = 0; k < plan_.limbs.size(); ++k) {
+            const Limb& limb = target_.limbs()[k];
+            make_limb(plan_.limbs[k], limb, k < 2 ? ahead : -ahead);
+            if (limb.is_leg) make_foot(plan_.feet.emplace_back(), source_.limbs()[k], limb);
+        }
     }
 
     /// Returns the number of joints from one down to another, both included; 0 if the second is not below.
@@ -223,10 +219,12 @@ private:
         return end == kNone ? 0 : links;
     }
 
-    void make_limb(LimbPlan& limb, const std::array<Role, 3>& roles, const glm::dvec3& side) {
-        limb.upper = target_.joint(roles[0]);
-        limb.lower = target_.joint(roles[1]);
-        limb.end = target_.joint(roles[2]);
+    /// \param side  to which a straight limb bends
+    void make_limb(LimbPlan& limb, const Limb& of, const glm::dvec3& side) {
+        limb.upper = of.joints[0];
+        limb.lower = of.joints[1];
+        limb.end = of.joints[2];
+        limb.foot = of.foot_joint();
         const glm::dvec3 start = target_.place(limb.upper);
         const glm::dvec3 middle = target_.place(limb.lower);
         const glm::dvec3 end = target_.place(limb.end);
@@ -257,19 +255,20 @@ private:
         limb.can_reach = has_middle && limb.length > 0.0 && (links == plain || limb.chain != nullptr);
     }
 
-    void make_foot(FootPlan& foot, Role ankle, Role toes) {
-        foot.turn = turn_of_[source_.joint(ankle)];
-        foot.rest = glm::conjugate(source_.turn(source_.joint(ankle)));
-        foot.heel = make_contact(ankle);
-        if (source_.joint(toes) == kNone || target_.joint(toes) == kNone) return;
-        foot.toes = make_contact(toes);
-        foot.toes_at = place_in(target_.joint(ankle), target_.joint(toes));
+    void make_foot(FootPlan& foot, const Limb& from, const Limb& to) {
+        foot.turn = turn_of_[from.foot_joint()];
+        foot.rest = glm::conjugate(source_.turn(from.foot_joint()));
+        foot.heel = make_contact(from.foot_joint(), to.foot_joint());
+        if (from.toes() == kNone || to.toes() == kNone) return;
+        foot.toes = make_contact(from.toes(), to.toes());
+        foot.toes_carrier = to.joints[to.joints.size() - 2];
+        foot.toes_at = place_in(foot.toes_carrier, to.toes());
     }
 
-    [[nodiscard]] ContactPlan make_contact(Role role) const {
-        const double from = glm::dot(plan_.source_up, source_.place(role) - plan_.map.from);
-        const double to = glm::dot(plan_.up, target_.place(role) - plan_.map.to);
-        return {source_.joint(role), from, to - plan_.map.scale * from};
+    [[nodiscard]] ContactPlan make_contact(std::uint32_t source, std::uint32_t target) const {
+        const double from = glm::dot(plan_.source_up, source_.place(source) - plan_.map.from);
+        const double to = glm::dot(plan_.up, target_.place(target) - plan_.map.to);
+        return {source, from, to - plan_.map.scale * from};
     }
 
     void match_morph_targets() {
@@ -325,6 +324,8 @@ Result<Retarget, RetargetError> RetargetPlan::make(const Model& source, const Mo
     Body from(source), to(target);
     if (auto fault = fault_of(from, true)) return *fault;
     if (auto fault = fault_of(to, false)) return *fault;
+    if (from.kind() != to.kind())
+        return RetargetError{RetargetError::Reason::other_body, true, {}, from.kind(), to.kind()};
     auto plan = std::make_unique<RetargetPlan>(source, target);
     plan->options = options;
     if (!PlanMaker(*plan, from, to).make()) return RetargetError{RetargetError::Reason::no_size, false, {}};
@@ -337,12 +338,19 @@ Result<Retarget, RetargetError> Retarget::make(const Model& source, const Model&
 }
 
 std::string error_text(const RetargetError& error) {
+    if (error.reason == RetargetError::Reason::other_body) {
+        constexpr std::array kKinds{"a human", "an animal on four legs", "an animal on two legs"};
+        return std::string("the source is ") + kKinds[static_cast<std::size_t>(error.source)] + " and the target " +
+               kKinds[static_cast<std::size_t>(error.target)] + ": nothing is retargeted between them";
+    }
     const std::string who = error.is_source ? "the source" : "the target";
     if (error.reason == RetargetError::Reason::no_roles)
         return who + " does not say what its joints are: list them as \"roles\" in its rig file";
     if (error.reason == RetargetError::Reason::no_size)
         return who + " has legs without length, or joints at places that are not finite";
-    std::string text = who + " has no joint for";
+    const bool is_animal =
+        std::any_of(error.missing.begin(), error.missing.end(), [](Role role) { return role >= kFirstChainRole; });
+    std::string text = who + (is_animal ? " has too few joints for" : " has no joint for");
     for (std::size_t k = 0; k < error.missing.size(); ++k)
         text.append(k == 0 ? " " : ", ").append(kValueNames<Role>[static_cast<std::size_t>(error.missing[k])]);
     return text + ": name them as \"roles\" in its rig file";

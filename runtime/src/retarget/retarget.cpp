@@ -114,6 +114,10 @@ float Retarget::scale() const {
     return static_cast<float>(plan_->map.scale);
 }
 
+float Retarget::leg() const {
+    return static_cast<float>(plan_->leg);
+}
+
 std::span<const std::uint32_t> Retarget::joints() const {
     return plan_->joints;
 }

@@ -80,6 +80,7 @@ struct ContactPlan {
 /// An arm or a leg of the target.
 struct LimbPlan {
     std::uint32_t upper = 0, lower = 0, end = 0;
+    std::uint32_t foot = 0;        ///< or hand; of an animal it may be below the end: `end` is the hock then
     const Chain* chain = nullptr;  ///< of the target; null: `own`
     Chain own;
     bool can_reach = false;
@@ -92,7 +93,8 @@ struct FootPlan {
     ContactPlan heel, toes;
     std::uint32_t turn = 0;       ///< of the source's foot
     glm::dquat rest{1, 0, 0, 0};  ///< its inverse orientation at rest
-    glm::dvec3 toes_at{0.0};      ///< the target's toes in the space of its foot, at rest
+    std::uint32_t toes_carrier = 0;
+    glm::dvec3 toes_at{0.0};  ///< the target's toes in the space of their carrier, at rest
 };
 
 struct RetargetPlan {
@@ -114,8 +116,9 @@ struct RetargetPlan {
     SpaceMap map;
     glm::dvec3 source_up{0, 1, 0}, up{0, 1, 0};
     double source_leg = 1.0, leg = 1.0;
-    std::array<LimbPlan, 4> limbs;  ///< left leg, right leg, left arm, right arm
-    std::array<FootPlan, 2> feet;
+    bool is_human = true;
+    std::vector<LimbPlan> limbs;  ///< see Body::limbs
+    std::vector<FootPlan> feet;   ///< of the first limbs
 
     std::vector<glm::dquat> held;   ///< work memory: of each moved joint, by what limits above it have turned it
     std::vector<glm::dquat> turns;  ///< work memory: of the source joints, then the mixed ones

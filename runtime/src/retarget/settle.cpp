@@ -19,7 +19,7 @@
 namespace bendy {
 namespace {
 
-constexpr std::size_t kLegs = 2;  // the first limbs
+constexpr std::size_t kMostLimbs = 4;
 constexpr double kFullTurn = 6.283185307179586;
 constexpr double kFarBeyond = 0.79, kMostBeyond = 1.57;  // radians: 45 and 90 degrees
 
@@ -27,6 +27,7 @@ constexpr double kFarBeyond = 0.79, kMostBeyond = 1.57;  // radians: 45 and 90 d
 struct LimbFrame {
     double extended = 0.0;                ///< metres from its start to its end, as in the source
     glm::dvec3 wanted{0.0};               ///< of its end
+    glm::dvec3 below{0.0};                ///< from its end to its foot or hand
     glm::dvec3 bend{0.0};                 ///< unit: where knee or elbow point
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};  ///< of its end
     double planted = 0.0;                 ///< how far `wanted` is decided by the ground: 0 to 1
@@ -38,13 +39,13 @@ public:
         : plan_(plan), source_(PoseState::of(source)), pose_(pose), to_(PoseState::of(pose)) {}
 
     Retargeted run(RetargetState& state, const std::optional<ContactWeights>& contacts) {
-        for (std::size_t k = 0; k < limbs_.size(); ++k) {
+        for (std::size_t k = 0; k < plan_.limbs.size(); ++k) {
             if (plan_.limbs[k].can_reach) read_limb(plan_.limbs[k], limbs_[k]);
         }
-        for (std::size_t k = 0; k < kLegs && plan_.options.plants_feet; ++k) plant(k, state, contacts);
+        for (std::size_t k = 0; k < plan_.feet.size() && plan_.options.plants_feet; ++k) plant(k, state, contacts);
         if (plan_.options.obey_constraints) constrain_all();
         lower_hips();
-        for (std::size_t k = 0; k < limbs_.size(); ++k) {
+        for (std::size_t k = 0; k < plan_.limbs.size(); ++k) {
             if (plan_.limbs[k].can_reach) finish(plan_.limbs[k], limbs_[k]);
         }
         return result_;
@@ -57,6 +58,7 @@ private:
         const glm::dmat4 upper = to_.fresh_matrix(plan.upper);
         const glm::dmat4 end = to_.fresh_matrix(plan.end);
         limb.wanted = glm::dvec3(end[3]);
+        limb.below = place(plan.foot) - limb.wanted;
         limb.extended = glm::length(limb.wanted - glm::dvec3(upper[3]));
         limb.bend = glm::dmat3(upper) * plan.bend;
         limb.turn = rigid_rotation(end);
@@ -76,9 +78,14 @@ private:
         }
         result_.contacts[2 * leg] = contact.heel;
         result_.contacts[2 * leg + 1] = contact.toes;
-        const Foot now{limbs_[leg].wanted, glm::dmat3(to_.fresh_matrix(plan.end)) * foot.toes_at};
+        const glm::dvec3 ankle = limbs_[leg].wanted + limbs_[leg].below;
+        Foot now{ankle};
+        if (foot.toes.source != kNone) {
+            const glm::dmat4 carrier = to_.fresh_matrix(foot.toes_carrier);
+            now.to_toes = glm::dvec3(carrier[3]) - ankle + glm::dmat3(carrier) * foot.toes_at;
+        }
         const Standing standing = stand(plan_, foot, source_, now, contact, heel, toes);
-        limbs_[leg].wanted = standing.ankle;
+        limbs_[leg].wanted = standing.ankle - limbs_[leg].below;
         limbs_[leg].planted = standing.weight;
     }
 
@@ -148,7 +155,7 @@ private:
     /// Lowers the hips until the feet that stand on the ground are within reach.
     void lower_hips() {
         double lowered = 0.0;
-        for (std::size_t k = 0; k < kLegs; ++k) {
+        for (std::size_t k = 0; k < plan_.feet.size(); ++k) {
             if (limbs_[k].planted > 0.0) lowered = std::max(lowered, lowering_for(plan_.limbs[k], limbs_[k]));
         }
         if (!(lowered > 0.0) || plan_.hips.joint == kNone) return;
@@ -182,11 +189,15 @@ private:
     /// Only feet that stand reach: everything else keeps its direction as far as limits allow.
     void finish(const LimbPlan& plan, const LimbFrame& limb) {
         constexpr double kThere = 1e-5;  // of the length
-        double missed = glm::length(place(plan.end) - limb.wanted);
+        double missed = distance_left(plan, limb);
         if (limb.planted > 0.0 && missed > kThere * plan.length) missed = try_to_reach(plan, limb, missed);
         if (missed <= double{result_.missed}) return;
         result_.missed = static_cast<float>(missed);
-        result_.missed_joint = plan.end;
+        result_.missed_joint = plan.foot;
+    }
+
+    [[nodiscard]] double distance_left(const LimbPlan& plan, const LimbFrame& limb) const {
+        return glm::length(place(plan.foot) - (limb.wanted + limb.below));
     }
 
     /// Leaves the limb as it is if it cannot come nearer within the limits. Returns the distance that is left.
@@ -195,7 +206,7 @@ private:
         std::array<JointTransform, joints.size()> before;
         for (std::size_t k = 0; k < joints.size(); ++k) before[k] = to_.local_of(joints[k]);
         reach_for(plan, limb);
-        const double left = glm::length(place(plan.end) - limb.wanted);
+        const double left = distance_left(plan, limb);
         if (left <= distance) return left;
         for (std::size_t k = 0; k < joints.size(); ++k) to_.set_local(joints[k], before[k]);
         return distance;
@@ -254,7 +265,7 @@ private:
     PoseState& source_;
     Pose& pose_;
     PoseState& to_;
-    std::array<LimbFrame, 4> limbs_{};
+    std::array<LimbFrame, kMostLimbs> limbs_{};
     Retargeted result_;
 };
 

@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -22,7 +24,8 @@ using Roles = std::map<std::string, std::string>;
 
 Roles roles_of(const Gltf& gltf) {
     Scene scene = *gltf.import();
-    find_roles(scene);
+    Report unheard;
+    find_roles(scene, kNone, unheard);
     Report report;
     EXPECT_TRUE(validate(build_chunks(scene, "test", report)).empty());
     Roles roles;
@@ -384,6 +387,7 @@ TEST(FindRoles, AnAnimalHasChains) {
     EXPECT_EQ(roles.at("neck_chain0"), "neck");
     EXPECT_EQ(roles.at("left_front_leg0"), "leftUpperArm");
     EXPECT_EQ(roles.at("right_hind_leg1"), "rightLowerLeg");
+    EXPECT_EQ(roles.at("right_hind_leg3"), "rightToes") << "down to the hoof, paw or claw";
     EXPECT_EQ(roles.count("left_upper_arm"), 0u);
 }
 
@@ -395,11 +399,17 @@ TEST(FindRoles, ABirdHasWings) {
         bird.names[s + "UpperArm"] = "wing" + mark;
         bird.names[s + "LowerArm"] = "wing.001" + mark;
         bird.names[s + "Hand"] = "wing.002" + mark;
+        bird.add(s + "Arch", s + "Foot", 0.5 * (bird[s + "Foot"].position + bird[s + "Toes"].position));
+        bird[s + "Toes"].parent = s + "Arch";
+        bird.add("wing_feather" + mark, s + "UpperArm", bird[s + "LowerArm"].position - glm::dvec3(0, 0, 0.2));
     }
     const Roles roles = roles_of(bird);
     EXPECT_EQ(roles.at("left_wing0"), "wing_L");
     EXPECT_EQ(roles.at("right_wing2"), "wing.002_R");
     EXPECT_EQ(roles.at("left_hind_leg1"), "leftLowerLeg");
+    EXPECT_EQ(roles.at("left_hind_leg3"), "leftArch");
+    EXPECT_EQ(roles.at("left_hind_leg4"), "leftToes");
+    EXPECT_EQ(roles.count("left_wing3"), 0u);
     EXPECT_EQ(roles.at("head"), "head");
     EXPECT_EQ(roles.count("left_upper_leg"), 0u);
 }
@@ -429,10 +439,63 @@ TEST(FindRoles, AWrongRoleIsWorseThanNone) {
     EXPECT_EQ(roles_of(prop), Roles());
 }
 
+/// A human, and one two metres beside it whose joints have names of the same meaning; each below a root of its own.
+HumanoidGltf two_humans() {
+    HumanoidGltf both;
+    both["hips"].parent = "first";
+    for (const HumanoidGltf::Bone& bone : std::vector(both.bones))
+        both.add("b:" + bone.name, bone.name == "hips" ? "second" : "b:" + bone.parent,
+                 bone.position + glm::dvec3(2, 0, 0));
+    both.add("first", "", {});
+    both.add("second", "", {2, 0, 0});
+    return both;
+}
+
+TEST(FindRoles, OfTwoCharactersOneGetsThemAndAWarningNamesBoth) {
+    Scene scene = *two_humans().build().import();
+    Report report;
+    find_roles(scene, kNone, report);
+    const auto is_of_second = [&](const RoleRecord& record) {
+        return scene.joints[record.joint].name.starts_with("b:");
+    };
+    EXPECT_GT(scene.roles.size(), 15u);
+    EXPECT_TRUE(std::none_of(scene.roles.begin(), scene.roles.end(), is_of_second));
+    const std::uint32_t hips = joint_named(scene, "b:hips");
+    ASSERT_EQ(report.warnings().size(), 1u);
+    const std::string text = report.warnings()[0].message;
+    EXPECT_TRUE(text.starts_with("there are 2 characters, below the joints 'first' (#")) << text;
+    EXPECT_NE(text.find(" and 'second' (#"), std::string::npos) << text;
+    EXPECT_NE(text.find(": the roles are those of 'first' (#"), std::string::npos) << text;
+    EXPECT_NE(text.find("{\"hips\": \"#" + std::to_string(hips) + "\"}"), std::string::npos) << text;
+
+    // As a rig file says, whether the roles were stored before or not.
+    for (int round = 0; round < 2; ++round) {
+        Report silent;
+        find_roles(scene, hips, silent);
+        EXPECT_TRUE(std::all_of(scene.roles.begin(), scene.roles.end(), is_of_second));
+        EXPECT_GT(scene.roles.size(), 15u);
+        EXPECT_TRUE(silent.warnings().empty());
+        scene.roles.clear();
+    }
+}
+
+TEST(FindRoles, AHumanBesideAPropIsAlone) {
+    HumanoidGltf human;
+    human.add("chain0", "", {3, 0, 0});
+    for (int k = 1; k < 20; ++k)
+        human.add("chain" + std::to_string(k), "chain" + std::to_string(k - 1), {3, 0.1 * k, 0});
+    Scene scene = *human.build().import();
+    Report report;
+    find_roles(scene, kNone, report);
+    EXPECT_GT(scene.roles.size(), 15u);
+    EXPECT_TRUE(report.warnings().empty());
+}
+
 TEST(FindRoles, WhatTheSceneHasStays) {
     Scene scene = *HumanoidGltf().build().import();
     scene.roles = {{3, static_cast<std::uint16_t>(Role::jaw), 0}};
-    find_roles(scene);
+    Report unheard;
+    find_roles(scene, kNone, unheard);
     EXPECT_EQ(scene.roles.size(), 1u);
 }
 

@@ -293,7 +293,7 @@ private:
 
     void make_tracks(const std::vector<std::uint32_t>& sampled_meshes) {
         const auto joints = target_.model().joints();
-        const double moved = kMostMoved * leg();
+        const double moved = kMostMoved * double{retarget_.leg()};
         target_.set_rest();
         const std::vector<glm::mat4> rests(target_.model_space().begin(), target_.model_space().end());
         for (std::uint32_t joint = 0; joint < joints.size(); ++joint) {
@@ -376,23 +376,6 @@ private:
             }
             result_.contacts.push_back(std::move(curve));
         }
-    }
-
-    /// The length of the target's legs, metres.
-    [[nodiscard]] double leg() {
-        target_.set_rest();
-        const auto places = target_.model_space();
-        double length = 0.0;
-        constexpr std::array kLeg{Role::left_upper_leg, Role::left_lower_leg, Role::left_foot};
-        std::array<std::uint32_t, kLeg.size()> joints{};
-        for (const JointRole& one : target_.model().roles()) {
-            for (std::size_t k = 0; k < kLeg.size(); ++k) {
-                if (static_cast<Role>(one.role) == kLeg[k]) joints[k] = one.joint;
-            }
-        }
-        for (std::size_t k = 0; k + 1 < joints.size(); ++k)
-            length += glm::length(glm::vec3(places[joints[k + 1]][3] - places[joints[k]][3]));
-        return length;
     }
 
     /// Compares what the tracks say with what Retarget has said.

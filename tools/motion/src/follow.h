@@ -49,7 +49,8 @@ struct Followed {
 std::optional<Followed> follow(Retarget& retarget, const Clip& clip, double most_turned,
                                const std::vector<std::uint32_t>& sampled_meshes);
 
-inline constexpr const char* kContactNames[kContacts] = {"left_heel_contact", "left_toes_contact", "right_heel_contact",
-                                                         "right_toes_contact"};
+inline constexpr const char* kContactNames[kContacts] = {
+    "left_heel_contact",       "left_toes_contact",       "right_heel_contact",       "right_toes_contact",
+    "left_front_heel_contact", "left_front_toes_contact", "right_front_heel_contact", "right_front_toes_contact"};
 
 }  // namespace bendy::motion

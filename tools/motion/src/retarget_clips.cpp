@@ -1,6 +1,7 @@
 #include <bendy/motion/retarget_clips.h>
 
 #include "follow.h"
+#include "other_characters.h"
 
 #include <bendy/format/curve.h>
 #include <bendy/format/diagnostics.h>
@@ -67,31 +68,20 @@ Result<Model, Problem> open_model(Bytes file, bool needs_clips, const char* what
     }
 }
 
-bool is_animal(const Model& model) {
-    return std::any_of(model.roles().begin(), model.roles().end(), [](const JointRole& one) {
-        const auto role = static_cast<Role>(one.role);
-        return role >= Role::left_front_leg && role <= Role::right_wing;
-    });
-}
-
 /// Says why two characters cannot be retargeted, what was found and what to write.
 Problem explain(const RetargetError& error, const Model& source, const Model& target) {
     const Model& model = error.is_source ? source : target;
     std::vector<std::size_t> numbers(model.joints().size());
     for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = k;
-    if (error.reason != RetargetError::Reason::no_size && is_animal(model)) {
-        return {
-            std::string(error.is_source ? "the source" : "the target") +
-            " is an animal, and only humans are retargeted; `bendy edit --merge` adds the clips of a skeleton whose "
-            "joints have the same names"};
-    }
     std::string text = error_text(error);
+    if (error.reason == RetargetError::Reason::other_body) return {text};
     if (error.reason == RetargetError::Reason::no_size) return {text + ": is there no rest pose?"};
     text +=
         " (it has " + counted(numbers.size(), "joint") + ": " + list_names(names_of(model.joints()), numbers, 6) + ")";
     const Role example = error.missing.empty() ? Role::hips : error.missing.front();
     return {text + R"(, as in {"bendy_rig": 1, "roles": {")" +
-            std::string(kValueNames<Role>[static_cast<std::size_t>(example)]) + R"(": "NAME"}})"};
+            std::string(kValueNames<Role>[static_cast<std::size_t>(example)]) + R"(": )" +
+            (example < kFirstChainRole ? R"("NAME")" : R"(["NAME", "NAME", "NAME"])") + "}}"};
 }
 
 class ClipRetargeting {
@@ -122,8 +112,11 @@ public:
             put(number, *std::move(followed));
         }
         const std::string names = list_names(names_of(source_.clips()), useless);
-        if (transfer_.clips.empty())
-            return Problem{"its clips animate no joint that has a role or a joint of the same name here: " + names};
+        if (transfer_.clips.empty()) {
+            const auto others = tell_other_characters(source_, "the source");
+            return Problem{"its clips animate no joint that has a role or a joint of the same name here: " + names +
+                           (others ? "; " + *others : "")};
+        }
         if (!useless.empty()) log_.warnings.push_back("clips that animate nothing in this file are left out: " + names);
         warn();
         return std::move(transfer_);
@@ -204,7 +197,7 @@ private:
     void put(std::size_t number, Followed followed) {
         for (std::size_t joint = 0; joint < lost_.size(); ++joint) {
             const bool is_here = transfer_.joints[joint] != kNone;
-            lost_[joint] = lost_[joint] || (followed.moves[joint] && !is_here && !is_trunk(joint));
+            lost_[joint] = lost_[joint] || (followed.moves[joint] && !is_here && !is_column(joint));
             stretched_[joint] = stretched_[joint] || followed.stretches[joint];
         }
         Transfer::Clip& clip = transfer_.clips.emplace_back();
@@ -224,12 +217,13 @@ private:
         }
     }
 
-    /// Columns of other numbers of joints share the turns of spine and neck.
-    [[nodiscard]] bool is_trunk(std::size_t joint) const {
+    /// Columns of other numbers of joints share the turns of spine, neck, tail and wings.
+    [[nodiscard]] bool is_column(std::size_t joint) const {
         return std::any_of(source_.roles().begin(), source_.roles().end(), [&](const JointRole& one) {
             const auto role = static_cast<Role>(one.role);
-            return one.joint == joint && ((role >= Role::hips && role <= Role::head) || role == Role::spine_chain ||
-                                          role == Role::neck_chain);
+            const bool is_leg = role >= Role::left_front_leg && role <= Role::right_hind_leg;
+            return one.joint == joint &&
+                   ((role >= Role::hips && role <= Role::head) || (role >= kFirstChainRole && !is_leg));
         });
     }
 
@@ -345,6 +339,9 @@ edit::Edited retarget_clips(Bytes file, Bytes other, const RetargetClips& option
         auto named = edit::find_named(names_of(source->clips()), options.clip, "clip");
         if (!named) return named.error();
         clips = *std::move(named);
+    }
+    for (const auto& [model, what] : {std::pair(&*source, "the source"), std::pair(&*target, "the target")}) {
+        if (auto others = tell_other_characters(*model, what)) log.warnings.push_back(*std::move(others));
     }
     const float scale = retarget->scale();
     const auto transfer = ClipRetargeting(*std::move(retarget), options, log).run(clips);

@@ -316,7 +316,7 @@ void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report) {
         found.bones = vrm->bones;
         return rig_human(scene, rest, clips, found, claimed, report);
     }
-    const FoundBody body = find_body(scene, rest, clips);
+    const FoundBody body = find_body(scene, rest, clips, std::vector<bool>(scene.joints.size(), true));
     if (body.animal) return rig_quadruped(scene, rest, clips, *body.animal, claimed, report);
     rig_human(scene, rest, clips, body.human, claimed, report);
 }

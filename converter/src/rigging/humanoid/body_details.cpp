@@ -136,7 +136,7 @@ std::vector<std::uint32_t> find_tail(const Scene& scene, const std::vector<std::
 std::vector<std::uint32_t> find_wing(const Scene& scene, BodySide side) {
     const auto is_wing = [&](std::uint32_t joint) {
         const NameWords name(scene.joints[joint].name);
-        return name.has("wing") && name.side() == side && !name.is_helper();
+        return name.has("wing") && !name.has("feather") && name.side() == side && !name.is_helper();
     };
     for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
         if (is_wing(joint)) return follow_names(scene, joint, is_wing);

@@ -55,11 +55,11 @@ bool has_all_limbs(const Humanoid& bones) {
 
 /// Completes a humanoid found by name from the shape of the bound joints; if that is not enough, from all joints.
 NamedHumanoid find_the_rest(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
-                            const std::vector<bool>& bound, NamedHumanoid named) {
+                            const std::vector<bool>& bound, const std::vector<bool>& among, NamedHumanoid named) {
     complete(scene, rest, clips, bound, named);
     if (has_all_limbs(named.bones)) return named;
     // A file may contain only some of its character's meshes.
-    std::vector<bool> all(scene.joints.size(), true);
+    std::vector<bool> all = among;
     for (const Mesh& mesh : scene.meshes) {
         if (mesh.joint != kNone && mesh.influences > 0) all[mesh.joint] = false;  // carries a mesh, is not a bone
     }
@@ -144,12 +144,14 @@ std::optional<Posture> measure_posture(const RestFrames& rest, const NamedHumano
     return Measurer(rest, found).measure();
 }
 
-FoundBody find_body(const Scene& scene, const RestFrames& rest, const ClipRotations& clips) {
+FoundBody find_body(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
+                    const std::vector<bool>& among) {
     FoundBody body;
-    const std::vector<bool> bound = find_bound_joints(scene);
+    std::vector<bool> bound = find_bound_joints(scene);
+    for (std::size_t joint = 0; joint < bound.size(); ++joint) bound[joint] = bound[joint] && among[joint];
     body.human = find_humanoid(scene, rest, bound);
     if (!is_upright_human(rest, body.human)) body.animal = find_quadruped(scene, rest, bound);
-    if (!body.animal) body.human = find_the_rest(scene, rest, clips, bound, body.human);
+    if (!body.animal) body.human = find_the_rest(scene, rest, clips, bound, among, body.human);
     return body;
 }
 

@@ -9,6 +9,7 @@
 #include <bendy/converter/scene.h>
 
 #include <optional>
+#include <vector>
 
 namespace bendy::converter {
 
@@ -20,7 +21,9 @@ struct FoundBody {
 
 /// Looks for a human by names; if that does not give an upright body with all limbs, for an animal, and for the missing
 /// parts of a human by shape.
-FoundBody find_body(const Scene& scene, const RestFrames& rest, const ClipRotations& clips);
+/// \param among  by joint: only these are considered
+FoundBody find_body(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
+                    const std::vector<bool>& among);
 
 /// The orientation of a character at rest.
 struct Posture {

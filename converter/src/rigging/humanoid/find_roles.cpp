@@ -3,8 +3,10 @@
 #include "body_details.h"
 #include "clip_rotations.h"
 #include "find_body.h"
+#include "find_characters.h"
 #include "humanoid.h"
 #include "mirrored_chains.h"
+#include "scene/failure.h"
 #include "scene/rest_frames.h"
 
 #include <bendy/converter/report.h>
@@ -16,6 +18,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -163,8 +166,11 @@ constexpr std::array<std::array<Role, 2>, 2> kLegRoles{std::array{Role::left_fro
 void add_animal(const Scene& scene, const RestFrames& rest, const Quadruped& animal, RoleList& roles) {
     const std::uint32_t hips = common_ancestor(
         scene, rest, {animal.legs[Quadruped::left_hind].front(), animal.legs[Quadruped::right_hind].front()});
-    for (std::size_t leg = 0; leg < animal.legs.size(); ++leg)
-        roles.add_chain(kLegRoles[leg / 2][leg % 2], animal.legs[leg]);
+    for (std::size_t leg = 0; leg < animal.legs.size(); ++leg) {
+        Joints joints = animal.legs[leg];
+        joints.insert(joints.end(), animal.paws[leg].begin(), animal.paws[leg].end());
+        roles.add_chain(kLegRoles[leg / 2][leg % 2], joints);
+    }
     Joints neck = animal.neck;
     if (!neck.empty()) roles.add(Role::head, neck.back());
     if (!neck.empty()) neck.pop_back();
@@ -186,21 +192,20 @@ void add_bird(const Scene& scene, const RestFrames& rest, const NamedHumanoid& n
     if (hips == kNone) return;
     const Joints path = joints_between(scene, hips, bones[Role::head]);
     const auto neck = std::find(path.begin(), path.end(), bones[Role::neck]);
-    const auto leg = [&](std::initializer_list<Role> parts) {
-        Joints joints;
-        for (const Role part : parts) {
-            if (bones.has(part)) joints.push_back(bones[part]);
-        }
+    const auto leg = [&](Role upper, Role foot, Role toes) {
+        const std::uint32_t last = bones.has(toes) ? bones[toes] : bones[foot];
+        if (!bones.has(upper) || !rest.is_below(last, bones[upper])) return Joints{};
+        Joints joints = joints_between(scene, bones[upper], last);
+        joints.insert(joints.begin(), bones[upper]);
+        joints.push_back(last);
         return joints;
     };
     roles.add(Role::hips, hips);
     roles.add(Role::head, bones[Role::head]);
     roles.add_chain(Role::spine_chain, Joints(path.begin(), neck));
     roles.add_chain(Role::neck_chain, Joints(neck, path.end()));
-    roles.add_chain(Role::left_hind_leg,
-                    leg({Role::left_upper_leg, Role::left_lower_leg, Role::left_foot, Role::left_toes}));
-    roles.add_chain(Role::right_hind_leg,
-                    leg({Role::right_upper_leg, Role::right_lower_leg, Role::right_foot, Role::right_toes}));
+    roles.add_chain(Role::left_hind_leg, leg(Role::left_upper_leg, Role::left_foot, Role::left_toes));
+    roles.add_chain(Role::right_hind_leg, leg(Role::right_upper_leg, Role::right_foot, Role::right_toes));
     roles.add_chain(Role::left_wing, left);
     roles.add_chain(Role::right_wing, right);
 }
@@ -214,24 +219,101 @@ void add_human(const Scene& scene, const RestFrames& rest, const NamedHumanoid& 
     roles.add_chain(Role::right_wing, find_wing(scene, BodySide::right));
 }
 
+std::vector<RoleRecord> roles_among(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
+                                    const std::vector<bool>& among) {
+    RoleList roles(scene);
+    const FoundBody body = find_body(scene, rest, clips, among);
+    if (body.animal) {
+        add_animal(scene, rest, *body.animal, roles);
+    } else {
+        add_human(scene, rest, body.human, roles);
+    }
+    return roles.take();
+}
+
+bool has_role(const std::vector<RoleRecord>& roles, std::uint32_t joint) {
+    return std::any_of(roles.begin(), roles.end(), [&](const RoleRecord& each) { return each.joint == joint; });
+}
+
+/// kNone if nobody has the role.
+std::uint32_t joint_with(const std::vector<RoleRecord>& roles, Role role) {
+    const auto found = std::find_if(roles.begin(), roles.end(), [&](const RoleRecord& each) {
+        return each.role == static_cast<std::uint16_t>(role);
+    });
+    return found == roles.end() ? kNone : found->joint;
+}
+
+struct Character {
+    std::uint32_t root = 0;
+    std::vector<RoleRecord> roles;
+};
+
+/// The characters of a scene that has several; otherwise nothing.
+/// \param whole  the roles that are found among all joints
+std::vector<Character> find_several(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
+                                    const std::vector<RoleRecord>& whole) {
+    constexpr std::size_t kMost = 8;
+    std::vector<std::uint32_t> branches = find_branches(scene, find_bound_joints(scene));
+    if (branches.size() > kMost) branches.resize(kMost);
+    const std::uint32_t hips = joint_with(whole, Role::hips);
+    const bool divides_one = hips != kNone && std::none_of(branches.begin(), branches.end(), [&](std::uint32_t root) {
+                                 return hips == root || rest.is_below(hips, root);
+                             });
+    if (branches.size() < 2 || divides_one) return {};
+    std::vector<Character> found;
+    for (const std::uint32_t root : branches) {
+        const std::vector<bool> all(scene.joints.size(), true);
+        std::vector<RoleRecord> roles = roles_among(scene, rest, clips, only_below(scene, all, root));
+        // Without a body that is known, a hand may look like an animal.
+        const bool counts = hips != kNone ? !roles.empty() : joint_with(roles, Role::left_upper_leg) != kNone;
+        if (counts) found.push_back({root, std::move(roles)});
+    }
+    return found.size() < 2 ? std::vector<Character>() : found;
+}
+
+void warn_of_others(const Scene& scene, const std::vector<Character>& all, const Character& used, Report& report) {
+    const auto shown = [&](std::uint32_t joint) {
+        return quote(scene.joints[joint].name) + " (#" + std::to_string(joint) + ')';
+    };
+    std::string names;
+    for (std::size_t k = 0; k < all.size(); ++k)
+        names += (k == 0 ? "" : k + 1 < all.size() ? ", " : " and ") + shown(all[k].root);
+    const Character& other = all[all.front().root == used.root ? 1 : 0];
+    report.warn(
+        "there are " + std::to_string(all.size()) + " characters, below the joints " + names +
+        ": the roles are those of " + shown(used.root) +
+        ". To give them to another one, name its hips in a rig file (--rig), as in {\"bendy_rig\": 1, \"roles\": "
+        "{\"hips\": \"#" +
+        std::to_string(joint_with(other.roles, Role::hips)) + "\"}}");
+}
+
 }  // namespace
 
-void find_roles(Scene& scene) {
-    if (!scene.roles.empty() || scene.joints.empty()) return;
-    RoleList roles(scene);
+void find_roles(Scene& scene, std::uint32_t hips, Report& report) {
+    if (scene.joints.empty() || (!scene.roles.empty() && (hips == kNone || has_role(scene.roles, hips)))) return;
     Report unheard;  // discarded: reported when the extension's chains are made
-    if (const std::optional<VrmHumanoid> vrm = read_vrm_humanoid(scene, unheard)) {
-        roles.add(vrm->bones);
-    } else {
-        const RestFrames rest(scene);
-        const FoundBody body = find_body(scene, rest, ClipRotations(scene));
-        if (body.animal) {
-            add_animal(scene, rest, *body.animal, roles);
-        } else {
-            add_human(scene, rest, body.human, roles);
+    if (scene.roles.empty()) {
+        if (const std::optional<VrmHumanoid> vrm = read_vrm_humanoid(scene, unheard)) {
+            RoleList roles(scene);
+            roles.add(vrm->bones);
+            scene.roles = roles.take();
+            return;
         }
     }
-    scene.roles = roles.take();
+    const RestFrames rest(scene);
+    const ClipRotations clips(scene);
+    std::vector<RoleRecord> whole = roles_among(scene, rest, clips, std::vector<bool>(scene.joints.size(), true));
+    std::vector<Character> all = find_several(scene, rest, clips, whole);
+    const std::uint32_t wanted = hips == kNone ? joint_with(whole, Role::hips) : hips;
+    const auto used = std::find_if(all.begin(), all.end(), [&](const Character& each) {
+        return wanted == kNone || wanted == each.root || rest.is_below(wanted, each.root);
+    });
+    if (used == all.end()) {
+        if (scene.roles.empty()) scene.roles = std::move(whole);
+        return;
+    }
+    if (hips == kNone) warn_of_others(scene, all, *used, report);
+    scene.roles = std::move(used->roles);
 }
 
 }  // namespace bendy::converter

@@ -4,6 +4,7 @@
 #include <bendy/converter/scene.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -13,17 +14,21 @@ namespace bendy::converter {
 /// Finds the roles of a scene that has none: those of its VRM humanoid; otherwise those of a human (find_body), of a
 /// four-legged animal, or of a bird. Leaves them empty if the joints do not have the shape of such a body: a wrong role
 /// would do more harm than none.
+///
+/// Of several characters in a scene, one gets the roles, and a warning names them all.
+/// \param hips  of the one that gets them, also if another one has roles; kNone: the first, or who has them
 #ifdef BENDY_AUTO_RIG
-void find_roles(Scene& scene);
+void find_roles(Scene& scene, std::uint32_t hips, Report& report);
 #else
-inline void find_roles(Scene& /*scene*/) {}
+inline void find_roles(Scene& /*scene*/, std::uint32_t /*hips*/, Report& /*report*/) {}
 #endif
 
 /// Warns if the scene has roles other than find_roles would find: an X-file has no place for them.
 inline void warn_of_lost_roles(Scene& scene, Report& report) {
     if (scene.roles.empty()) return;
     std::vector<RoleRecord> kept = std::exchange(scene.roles, {});
-    find_roles(scene);
+    Report unheard;
+    find_roles(scene, kNone, unheard);
     const bool are_found = std::equal(kept.begin(), kept.end(), scene.roles.begin(), scene.roles.end(),
                                       [](const RoleRecord& a, const RoleRecord& b) {
                                           return a.joint == b.joint && a.role == b.role && a.place == b.place;

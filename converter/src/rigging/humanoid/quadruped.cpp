@@ -260,8 +260,9 @@ private:
             const bool is_first_left = glm::dot(legs->chains->across, found.stance.left) > 0.0;
             for (const std::size_t side : {0u, 1u}) {
                 const std::vector<std::uint32_t>& joints = legs->chains->joints[is_first_left ? side : 1 - side];
-                found.legs[left + side].assign(joints.begin() + static_cast<std::ptrdiff_t>(legs->root),
-                                               joints.begin() + static_cast<std::ptrdiff_t>(legs->foot) + 1);
+                const auto below = joints.begin() + static_cast<std::ptrdiff_t>(legs->foot) + 1;
+                found.legs[left + side].assign(joints.begin() + static_cast<std::ptrdiff_t>(legs->root), below);
+                found.paws[left + side].assign(below, joints.end());
             }
         }
         found.spine = find_spine(front.anchor, hind.anchor);

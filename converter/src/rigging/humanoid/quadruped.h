@@ -20,6 +20,7 @@ struct Quadruped {
 
     Stance stance;
     std::array<std::vector<std::uint32_t>, 4> legs;  ///< by Leg; at least three joints each, the foot last
+    std::array<std::vector<std::uint32_t>, 4> paws;  ///< joints below the foot; may be empty
     std::array<std::uint32_t, 4> targets{kNone, kNone, kNone,
                                          kNone};  ///< controls of an IK rig that move the feet; may be kNone
     std::vector<std::uint32_t> spine;             ///< between hind and front legs; may be empty, as may the next two

@@ -159,6 +159,13 @@ void attach_roles(Scene& scene, const Rig& rig, const JointIndex& index) {
     scene.roles = std::move(roles);
 }
 
+std::uint32_t find_hips(const Rig& rig, const JointIndex& index) {
+    if (!rig.roles) return kNone;
+    const auto hips = std::find_if(rig.roles->begin(), rig.roles->end(),
+                                   [](const RigRole& role) { return role.role == Role::hips && !role.joints.empty(); });
+    return hips == rig.roles->end() ? kNone : index.find_key(hips->joints.front());
+}
+
 void attach_rig(Scene& scene, const Rig& rig, const JointIndex& index, Claims& claims, Report& report) {
     WorkBudget budget;
     std::vector<Chain> chains;

@@ -27,6 +27,8 @@ void attach_rig(Scene& scene, const Rig& rig, const JointIndex& index, Claims& c
 /// Gives joints the roles that the rig says; other joints keep theirs, unless the rig gives them to somebody else.
 /// Fails at the JSON path of a joint that does not exist or is named twice; the scene is then unchanged.
 void attach_roles(Scene& scene, const Rig& rig, const JointIndex& index);
+/// The joint that the rig calls the hips; kNone if it does not say or there is no such joint.
+std::uint32_t find_hips(const Rig& rig, const JointIndex& index);
 
 /// Resolves the joints of a chain. Fails at its JSON path if a joint does not exist, the start is not above the
 /// effector, or a named weight is outside the chain.

@@ -137,8 +137,9 @@ Result<Scene, ImportError> import_source(std::optional<Buffer> source, const std
     } else {
         change_rig(*scene, rig, options.auto_rig, report);
     }
-    if (!rig || !rig->complete || !rig->roles) find_roles(*scene);
-    if (rig) attach_roles(*scene, *rig, JointIndex(*scene));
+    const JointIndex index(*scene);
+    if (!rig || !rig->complete || !rig->roles) find_roles(*scene, rig ? find_hips(*rig, index) : kNone, report);
+    if (rig) attach_roles(*scene, *rig, index);
     return scene;
 }
 

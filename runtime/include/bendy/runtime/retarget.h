@@ -44,24 +44,43 @@ struct RetargetOptions {
     bool plants_feet = true;
 };
 
+/// What a body stands on, as its roles say. Poses go from one body to another of the same kind.
+enum class BodyKind : std::uint8_t {
+    human,
+    four_legs,  ///< an animal with hind legs and front legs
+    two_legs,   ///< an animal with hind legs only, such as a bird
+};
+
 /// Why two models cannot be retargeted.
 struct RetargetError {
     enum class Reason : std::uint8_t {
         no_roles,       ///< the model does not say what its joints are
         missing_roles,  ///< some of the joints that are needed have no role
         no_size,        ///< the legs have no length, or a number is not finite
+        other_body,     ///< the two are not of the same kind
     };
     Reason reason = Reason::no_roles;
-    bool is_source = false;     ///< whose fault it is: the source's or the target's
-    std::vector<Role> missing;  ///< for missing_roles
+    bool is_source = false;                                       ///< whose fault it is: the source's or the target's
+    std::vector<Role> missing;                                    ///< for missing_roles
+    BodyKind source = BodyKind::human, target = BodyKind::human;  ///< for other_body
 };
 
 /// Says what is missing and what to write in the rig file. Allocates.
 std::string error_text(const RetargetError& error);
 
-/// Two feet, with two points of contact each.
-enum class Contact : std::uint8_t { left_heel, left_toes, right_heel, right_toes };
-inline constexpr std::size_t kContacts = 4;
+/// Feet, with two points of contact each. Those of an animal's hind legs are named as a human's; its heel is where the
+/// paw or the hoof begins.
+enum class Contact : std::uint8_t {
+    left_heel,
+    left_toes,
+    right_heel,
+    right_toes,
+    left_front_heel,
+    left_front_toes,
+    right_front_heel,
+    right_front_toes,
+};
+inline constexpr std::size_t kContacts = 8;
 /// How firmly each of them stands on the ground: 0 in the air, 1 on the ground.
 using ContactWeights = std::array<float, kContacts>;
 
@@ -88,15 +107,16 @@ struct Retargeted {
 /// How the poses of one model become poses of another. Making one allocates; retargeting with it does not. Contains
 /// work memory, so each thread needs one of its own (a copy will do).
 ///
-/// Joints with a role turn as those of the source do, also where the two have different numbers of joints in the spine
-/// or the neck. Joints with equal names and no role come along, such as props. So do morph targets with equal names, or
-/// with the same name in another spelling ("eyeBlinkLeft", "EyeBlink_L"); several may follow one. All others keep their
-/// rest relative to their parent. Limbs keep the target's lengths; the hips' travel is scaled by the length
-/// of the legs.
+/// Joints with a role turn as those of the source do, also where the two have different numbers of joints in the spine,
+/// the neck, the tail or a wing. Legs of animals correspond joint by joint from hip and shoulder outwards. Joints with
+/// equal names and no role come along, such as props. So do morph targets with equal names, or with the same name in
+/// another spelling ("eyeBlinkLeft", "EyeBlink_L"); several may follow one. All others keep their rest relative to
+/// their parent. Limbs keep the target's lengths; the hips' travel is scaled by the length of the legs.
 class Retarget {
 public:
-    /// Both models need the roles of VRM's required bones except the spine: hips, head, upper and lower arms and legs,
-    /// hands, feet.
+    /// Both models are humans, animals on four legs, or animals on two. A human needs the roles of VRM's required bones
+    /// except the spine: hips, head, upper and lower arms and legs, hands, feet. An animal needs hips, and three joints
+    /// or more of each leg.
     static Result<Retarget, RetargetError> make(const Model& source, const Model& target,
                                                 const RetargetOptions& options = {});
     Retarget(const Retarget& other);
@@ -109,6 +129,8 @@ public:
     [[nodiscard]] const Model& target() const;
     /// The target's size as a multiple of the source's, by the length of the legs.
     [[nodiscard]] float scale() const;
+    /// The length of the target's legs (of an animal, its hind legs) from hip to foot, metres.
+    [[nodiscard]] float leg() const;
     /// For each joint of the target, the source's joint that turns it, or kNone. Where two joints do, the nearer one.
     [[nodiscard]] std::span<const std::uint32_t> joints() const;
     /// For each morph target of the target, the source's, or kNone.
