@@ -57,6 +57,21 @@ class Convert(Case):
         for bound, words in (("0.1", "no unit"), ("1in", "unknown unit"), ("-1mm", "not above zero"), ("much", "not an error bound")):
             self.assertIn(words, self.misused("convert", source, "--max-error", bound))
 
+    def test_what_no_material_uses_is_dropped_and_named(self):
+        file = GltfFile(nodes=[{"mesh": 0}], scenes=[{"nodes": [0]}], materials=[{"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}])
+        attributes = {"POSITION": file.add([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0)], "VEC3"),
+                      "TEXCOORD_0": file.add([(number / 8, 0) for number in range(6)], "VEC2")}
+        file.document["meshes"] = [{"name": "square", "primitives": [{"attributes": attributes, "material": 0}]}]
+        source = file.write(self.folder / "square.gltf")
+        self.assertIn(b"6 vertices", self.done("convert", source, "-o", "all.bendy"))
+        for options in ([], ["--compact"], ["--lod"]):
+            done = self.bendy("convert", source, "-o", "used.bendy", "--drop-unused", *options)
+            self.assertEqual(done.returncode, 0)
+            self.assertIn(b"4 vertices", done.stdout)
+            self.assertIn(b"mesh 'square', TEXCOORD_0: texture coordinates that no material uses are left out", done.stderr)
+            self.assertIn(b"vertices that differed in nothing else are merged (2 times)", done.stderr)
+            self.done("validate", "used.bendy")
+
     def test_the_summary_says_what_is_in_the_file(self):
         text = self.done("convert", SOURCE / "examples" / "mannequin.glb", "-o", "m.bendy").decode()
         for words in ("m.bendy", "joints         65\n", "4,504 vertices", "Idle", "Walk", "Blink", "Smile",

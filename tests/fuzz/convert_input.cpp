@@ -20,7 +20,8 @@ enum Switch : unsigned {
     kSkeleton = 1u << 8,
     kScene = 1u << 9,
     kTicks = 1u << 10,
-    kLeaveImages = 1u << 11
+    kLeaveImages = 1u << 11,
+    kDropUnused = 1u << 12
 };
 
 }  // namespace
@@ -56,6 +57,7 @@ converter::ConvertOptions ConvertInput::options() const {
     options.merge_clips = is_on(kMergeClips);
     options.lod = is_on(kLod);
     options.keep_order = is_on(kKeepOrder);
+    options.drop_unused = is_on(kDropUnused);
     options.gltf.instances = is_on(kInstances);
     options.gltf.embed_images = !is_on(kLeaveImages);
     if (is_on(kCompact)) options.compact = kBounds[byte(2) % kBounds.size()];

@@ -123,6 +123,7 @@ for (const file of examples) {
       [{ keepOrder: true }, ['--keep-order']],
       [{ compact: '0.1mm', lod: true }, ['--max-error', '0.1mm', '--lod']],
       [{ mergeClips: true }, ['--merge-clips']],
+      [{ dropUnused: true }, ['--drop-unused']],
     ]) {
       assertSameBytes((await tools.convert(read(file), options)).bytes, nativeBytes('.bendy', 'convert', '-q', file, ...args), args.join(' '));
     }

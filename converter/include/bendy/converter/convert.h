@@ -38,6 +38,9 @@ struct ConvertOptions {
     bool auto_skin = false;
     /// For auto_skin, if not empty: use only this joint and its descendants as bones; a name, or `#` and a number.
     std::string skeleton;
+    /// Leave out per-vertex data that no material uses, such as texture coordinates, and merge the vertices that then
+    /// differ in nothing; see docs/convert.md. The report lists what was left out.
+    bool drop_unused = false;
     /// Encode for size: no point of the skin moves further than this. Nothing: exact.
     std::optional<ErrorBound> compact;
     /// If not empty, called with the fraction done, 0 to 1, by one thread at a time. An exception from it ends

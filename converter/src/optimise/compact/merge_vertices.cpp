@@ -1,14 +1,15 @@
 #include "optimise/compact/compact_geometry.h"
 #include "optimise/passes/bone_order.h"
+#include "optimise/passes/equal_vertices.h"
 #include "optimise/passes/level_order.h"
 #include "optimise/passes/mesh_order.h"
+#include "optimise/passes/mesh_streams.h"
 
 #include <bendy/format/codec.h>
 
 #include <meshoptimizer.h>
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -22,19 +23,7 @@ constexpr std::uint32_t kUnused = ~0u;
 /// Calls visit(vector, entries per vertex) for every per-vertex vector of a mesh and its integers.
 template <class Visit>
 void for_each_stream(Mesh& mesh, CompactMesh& compact, const Visit& visit) {
-    visit(mesh.positions, 1);
-    visit(mesh.normals, 1);
-    visit(mesh.tangents, 1);
-    for (auto* streams : {&mesh.texture_coords, &mesh.colours, &mesh.attributes}) {
-        for (Stream& stream : *streams) visit(stream.values, stream.components);
-    }
-    visit(mesh.bones, mesh.influences);
-    visit(mesh.weights, mesh.influences);
-    for (MorphTarget& target : mesh.targets) {
-        visit(target.positions, 1);
-        visit(target.normals, 1);
-        visit(target.tangents, 1);
-    }
+    for_each_stream(mesh, visit);
     const auto stored = [&](std::optional<StoredStream>& stream) {
         if (stream) visit(stream->bytes, stream->row());
     };
@@ -67,33 +56,9 @@ void move_vertices(Mesh& mesh, CompactMesh& compact, std::span<const std::uint32
 
 void merge_vertices(Mesh& mesh, CompactMesh& compact) {
     const std::size_t vertices = mesh.positions.size();
-    std::vector<std::vector<std::byte>> columns;  // all of a vertex's data, row by row
-    std::vector<std::size_t> widths;
-    for_each_stream(mesh, compact, [&](const auto& values, std::size_t width) {
-        if (values.empty() || width == 0) return;
-        const auto bytes = std::as_bytes(std::span(values));
-        columns.emplace_back(bytes.begin(), bytes.end());
-        widths.push_back(width * sizeof(values[0]));
-    });
-    std::vector<std::uint32_t> order(vertices);
-    std::iota(order.begin(), order.end(), 0u);
-    const auto compare = [&](std::uint32_t a, std::uint32_t b) {
-        for (std::size_t c = 0; c < columns.size(); ++c) {
-            const int sign =
-                std::memcmp(columns[c].data() + a * widths[c], columns[c].data() + b * widths[c], widths[c]);
-            if (sign != 0) return sign;
-        }
-        return 0;
-    };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        const int sign = compare(a, b);
-        return sign != 0 ? sign < 0 : a < b;
-    });
-    std::vector<std::uint32_t> first_of(vertices);  // the first identical vertex
-    for (std::size_t k = 0; k < vertices; ++k) {
-        const bool is_alike = k != 0 && compare(order[k - 1], order[k]) == 0;
-        first_of[order[k]] = is_alike ? first_of[order[k - 1]] : order[k];
-    }
+    std::vector<VertexRows> rows;
+    for_each_stream(mesh, compact, [&](const auto& values, std::size_t entries) { add_rows(rows, values, entries); });
+    const std::vector<std::uint32_t> first_of = first_equal_vertices(vertices, rows);
     std::vector<std::uint32_t> place_of(vertices);
     std::uint32_t count = 0;
     for (std::size_t vertex = 0; vertex < vertices; ++vertex)

@@ -1,5 +1,7 @@
 #include "optimise/passes/mesh_order.h"
 
+#include "optimise/passes/mesh_streams.h"
+
 #include "scene/failure.h"
 
 #include <algorithm>
@@ -127,20 +129,7 @@ void permute(std::vector<T>& stream, std::size_t stride, std::span<const std::ui
 std::vector<std::uint32_t> permute_vertices(Mesh& mesh, std::span<const std::uint32_t> order) {
     std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
     for (std::uint32_t at = 0; at < order.size(); ++at) number[order[at]] = at;
-    permute(mesh.positions, 1, order);
-    permute(mesh.normals, 1, order);
-    permute(mesh.tangents, 1, order);
-    for (auto* streams : {&mesh.texture_coords, &mesh.colours, &mesh.attributes}) {
-        for (Stream& stream : *streams) permute(stream.values, stream.components, order);
-    }
-    permute(mesh.bones, mesh.influences, order);
-    permute(mesh.weights, mesh.influences, order);
-    permute(mesh.source_numbers, 1, order);
-    for (MorphTarget& target : mesh.targets) {
-        permute(target.positions, 1, order);
-        permute(target.normals, 1, order);
-        permute(target.tangents, 1, order);
-    }
+    for_each_stream(mesh, [&](auto& values, std::size_t entries) { permute(values, entries, order); });
     for (Submesh& submesh : mesh.submeshes) {
         for (std::uint32_t& index : submesh.indices) {
             assert(number[index] != kNone);

@@ -4,6 +4,7 @@
 #include "optimise/compact/build_compact.h"
 #include "optimise/passes/auto_skin.h"
 #include "optimise/passes/bone_order.h"
+#include "optimise/passes/drop_unused.h"
 #include "optimise/passes/merge_clips.h"
 #include "rigging/humanoid/find_roles.h"
 #include "rigging/rig/attach_rig.h"
@@ -166,6 +167,7 @@ Result<Buffer, ImportError> convert_any(std::optional<Buffer> source, const std:
         if (options.auto_skin) {
             if (auto bound = auto_skin(*scene, options.skeleton, report); !bound) return bound.error();
         }
+        if (options.drop_unused) drop_unused(*scene, report);
         constexpr double kLodDone = 0.4;  // share of the work, if both are requested
         if (options.progress) options.progress(0.0);
         if (options.lod) collapse_vertices(*scene, part_of(options.progress, 0.0, options.compact ? kLodDone : 1.0));
