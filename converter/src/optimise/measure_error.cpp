@@ -17,6 +17,7 @@
 #include <map>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace bendy::converter {
@@ -414,15 +415,18 @@ public:
         measure(kNone, 0.0);
     }
 
-    void measure_at(std::uint32_t clip, double seconds) {
-        evaluate(exact_, exact_.clips[clip], seconds, exact_pose_);
-        evaluate(decoded_, decoded_.clips[clip], seconds, decoded_pose_);
-        measure(clip, seconds);
+    void measure_at(double seconds) {
+        exact_clip_->at(seconds, exact_pose_);
+        decoded_clip_->at(seconds, decoded_pose_);
+        measure(clip_, seconds);
     }
 
     [[nodiscard]] const MeasuredError& worst() const { return worst_; }
-    /// Passes over errors below `known`, the error of another pose.
-    void start_anew(double known) {
+    /// Begins a clip. Passes over errors below `known`, the error of another pose.
+    void start_anew(std::uint32_t clip, double known) {
+        clip_ = clip;
+        exact_clip_.emplace(exact_, exact_.clips[clip]);
+        decoded_clip_.emplace(decoded_, decoded_.clips[clip]);
         worst_ = {};
         worst_.metres = std::nextafter(known, 0.0);  // an equal error counts: the result does not depend on the order
         for (MeshPair& pair : pairs_) pair.forget_pose();
@@ -482,6 +486,8 @@ private:
     std::vector<glm::dvec3> points_;  // per loose joint, see points_of_joints
     std::span<const std::vector<glm::dvec3>> shell_;
     double limit_;  // metres, for the shell
+    std::uint32_t clip_ = kNone;
+    std::optional<ClipEvaluator> exact_clip_, decoded_clip_;
     EvaluatedPose exact_pose_, decoded_pose_;
     MeasuredError worst_;
 };
@@ -538,7 +544,7 @@ std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decode
         Comparison& own = workers[worker];
         {
             const std::lock_guard lock(guard);
-            own.start_anew(known);
+            own.start_anew(clips[k], known);
         }
         constexpr std::size_t kCoarse = 64;
         std::size_t done = 0;
@@ -546,7 +552,7 @@ std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decode
              {true, false}) {  // far apart first: a large error found early lets later poses be skipped
             for (std::size_t t = 0; t < times[k].size(); ++t) {
                 if ((t % kCoarse == 0) != is_coarse) continue;
-                own.measure_at(clips[k], times[k][t]);
+                own.measure_at(times[k][t]);
                 if (++done % kCoarse == 0) progress.add(kCoarse);
             }
         }

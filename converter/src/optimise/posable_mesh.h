@@ -19,7 +19,7 @@ namespace bendy::converter {
 /// A bone of a vertex.
 struct Influence {
     std::uint32_t entry = 0;  ///< index among the used entries of the palette
-    double weight = 0.0;
+    float weight = 0.0f;
 };
 
 /// A vertex's displacement by a morph target.
@@ -41,8 +41,8 @@ class PosableMesh {
 public:
     /// \param used  palette entries to keep, see mark_used
     PosableMesh(const Mesh& mesh, const std::vector<bool>& used)
-        : base_(mesh.positions.begin(), mesh.positions.end()), weights_(mesh.targets.size(), 0.0) {
-        if (!mesh.targets.empty()) positions_ = base_;
+        : base_(mesh.positions), weights_(mesh.targets.size(), 0.0) {
+        if (!mesh.targets.empty()) positions_.assign(base_.begin(), base_.end());
         std::vector<std::uint32_t> place(used.size(), kNone);  // per palette entry: its index among the used ones
         if (mesh.influences == 0) {
             joints_ = {mesh.joint};
@@ -58,7 +58,7 @@ public:
         first_.reserve(base_.size() + 1);
         first_.push_back(0);
         for (std::size_t vertex = 0; vertex < base_.size(); ++vertex) {
-            if (mesh.influences == 0) influences_.push_back({0, 1.0});
+            if (mesh.influences == 0) influences_.push_back({0, 1.0f});
             for (std::size_t k = 0; k < mesh.influences; ++k) {
                 const std::size_t at = vertex * mesh.influences + k;
                 if (mesh.weights[at] != 0.0f) influences_.push_back({place[mesh.bones[at]], mesh.weights[at]});
@@ -94,7 +94,7 @@ public:
         if (weights == weights_) return has_changed;
         for (std::size_t target = 0; target < targets_.size(); ++target) {
             if (weights_[target] == 0.0) continue;
-            for (const Displacement& d : targets_[target]) positions_[d.vertex] = base_[d.vertex];
+            for (const Displacement& d : targets_[target]) positions_[d.vertex] = base(d.vertex);
         }
         weights_ = weights;
         for (std::size_t target = 0; target < targets_.size(); ++target) {
@@ -105,17 +105,17 @@ public:
     }
 
     [[nodiscard]] glm::dvec3 place(std::size_t vertex) const {
-        const glm::dvec3& position = positions_.empty() ? base_[vertex] : positions_[vertex];
+        const glm::dvec3 position = positions_.empty() ? base(vertex) : positions_[vertex];
         glm::dvec3 sum(0.0);
         for (const Influence& influence : influences(vertex))
-            sum += influence.weight * matrices_[influence.entry](position);
+            sum += double{influence.weight} * matrices_[influence.entry](position);
         return sum;
     }
 
     [[nodiscard]] std::size_t size() const { return base_.size(); }
     [[nodiscard]] const std::vector<std::uint32_t>& joints() const { return joints_; }
     [[nodiscard]] const std::vector<Affine>& matrices() const { return matrices_; }
-    [[nodiscard]] const glm::dvec3& base(std::size_t vertex) const { return base_[vertex]; }
+    [[nodiscard]] glm::dvec3 base(std::size_t vertex) const { return glm::dvec3(base_[vertex]); }
     [[nodiscard]] std::span<const Influence> influences(std::size_t vertex) const {
         return std::span(influences_).subspan(first_[vertex], first_[vertex + 1] - first_[vertex]);
     }
@@ -132,7 +132,7 @@ private:
     std::vector<std::uint32_t> joints_;
     std::vector<glm::dmat4> inverse_bind_;
     std::vector<Affine> matrices_;
-    std::vector<glm::dvec3> base_;
+    std::vector<glm::vec3> base_;
     std::vector<glm::dvec3> positions_;  // displaced by targets; empty if there are none
     std::vector<std::uint32_t> first_;
     std::vector<Influence> influences_;

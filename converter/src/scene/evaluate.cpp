@@ -29,38 +29,7 @@ void scale_to(double length, double* numbers, std::size_t count) {
     for (std::size_t c = 0; c < count; ++c) numbers[c] *= length / present;
 }
 
-/// Great-arc interpolation. Lengths near 1 are interpolated as well.
-Quaternion slerp(Quaternion a, Quaternion b, double u) {
-    if (a == b) return a;
-    const double length = (1.0 - u) * length_of(a.data(), 4) + u * length_of(b.data(), 4);
-    double dot = 0.0;
-    for (std::size_t c = 0; c < 4; ++c) dot += a[c] * b[c];
-    if (dot < 0.0) {
-        for (double& number : b) number = -number;
-    }
-    scale_to(1.0, a.data(), 4);
-    scale_to(1.0, b.data(), 4);
-    Quaternion sum{};
-    Quaternion difference{};
-    for (std::size_t c = 0; c < 4; ++c) {
-        sum[c] = a[c] + b[c];
-        difference[c] = b[c] - a[c];
-    }
-    const double cosine = length_of(sum.data(), 4);       // twice the cosine of half the angle
-    const double sine = length_of(difference.data(), 4);  // twice its sine
-    double of_a = 1.0 - u;
-    double of_b = u;
-    constexpr double kShort = 1e-8;  // below this the chord replaces the arc
-    if (sine > kShort) {
-        const trig::SinCos part = trig::sin_cos(u * 2.0 * trig::atan2(sine, cosine));
-        of_b = part.sin / (0.5 * sine * cosine);
-        of_a = part.cos - 0.25 * (cosine * cosine - sine * sine) * of_b;
-    }
-    Quaternion result{};
-    for (std::size_t c = 0; c < 4; ++c) result[c] = of_a * a[c] + of_b * b[c];
-    scale_to(length, result.data(), 4);
-    return result;
-}
+constexpr double kShort = 1e-8;  // below this the chord replaces the arc
 
 /// glTF's cubic spline between two keys `seconds` apart; a key is in-tangent, value, out-tangent.
 double hermite(double value, double out_tangent, double in_tangent, double next, double u, double seconds) {
@@ -69,30 +38,21 @@ double hermite(double value, double out_tangent, double in_tangent, double next,
            u * u * (3.0 - 2.0 * u) * next - u * u * rest * seconds * in_tangent;
 }
 
-struct Placement {
-    glm::dvec3 translation;
-    Quaternion rotation;
-    glm::dvec3 scale;
-};
-
 /// T * R * U, see Transform.
-glm::dmat4 to_matrix(const Placement& local, const glm::dvec3& shear) {
-    const auto [x, y, z, w] = local.rotation;
+glm::dmat4 to_matrix(const glm::dvec3& translation, const Quaternion& rotation, const glm::dvec3& scale,
+                     const glm::dvec3& shear) {
+    const auto [x, y, z, w] = rotation;
     const glm::dvec3 r0(1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y));
     const glm::dvec3 r1(2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x));
     const glm::dvec3 r2(2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y));
-    return {glm::dvec4(local.scale.x * r0, 0.0), glm::dvec4(shear.x * r0 + local.scale.y * r1, 0.0),
-            glm::dvec4(shear.y * r0 + shear.z * r1 + local.scale.z * r2, 0.0), glm::dvec4(local.translation, 1.0)};
+    return {glm::dvec4(scale.x * r0, 0.0), glm::dvec4(shear.x * r0 + scale.y * r1, 0.0),
+            glm::dvec4(shear.y * r0 + shear.z * r1 + scale.z * r2, 0.0), glm::dvec4(translation, 1.0)};
 }
 
-std::vector<Placement> rest_locals(const Scene& scene) {
-    std::vector<Placement> locals;
-    locals.reserve(scene.joints.size());
-    for (const Joint& joint : scene.joints) {
-        const glm::vec4& r = joint.rest.rotation;
-        locals.push_back({glm::dvec3(joint.rest.translation), {r.x, r.y, r.z, r.w}, glm::dvec3(joint.rest.scale)});
-    }
-    return locals;
+glm::dmat4 rest_matrix(const Transform& rest) {
+    const glm::vec4& r = rest.rotation;
+    return to_matrix(glm::dvec3(rest.translation), {r.x, r.y, r.z, r.w}, glm::dvec3(rest.scale),
+                     glm::dvec3(rest.shear));
 }
 
 void rest_weights(const Scene& scene, EvaluatedPose& pose) {
@@ -106,19 +66,28 @@ void rest_weights(const Scene& scene, EvaluatedPose& pose) {
 
 /// The product of two matrices whose last rows are 0, 0, 0, 1.
 glm::dmat4 product(const glm::dmat4& a, const glm::dmat4& b) {
-    glm::dmat4 result;
-    for (int c = 0; c < 3; ++c) result[c] = a[0] * b[c].x + a[1] * b[c].y + a[2] * b[c].z;
-    result[3] = a[0] * b[3].x + a[1] * b[3].y + a[2] * b[3].z + a[3];
-    return result;
+    const glm::dvec3 x(a[0]);
+    const glm::dvec3 y(a[1]);
+    const glm::dvec3 z(a[2]);
+    const auto turned = [&](const glm::dvec4& v) { return x * v.x + y * v.y + z * v.z; };
+    return {glm::dvec4(turned(b[0]), 0.0), glm::dvec4(turned(b[1]), 0.0), glm::dvec4(turned(b[2]), 0.0),
+            glm::dvec4(turned(b[3]) + glm::dvec3(a[3]), 1.0)};
 }
 
-void to_model_space(const Scene& scene, const std::vector<Placement>& locals, EvaluatedPose& pose) {
-    pose.joints.resize(scene.joints.size());
+/// \param locals  per joint
+void to_model_space(const Scene& scene, const std::vector<glm::dmat4>& locals, EvaluatedPose& pose) {
+    pose.joints.resize(locals.size());
     for (std::size_t joint = 0; joint < locals.size(); ++joint) {
-        const glm::dmat4 local = to_matrix(locals[joint], glm::dvec3(scene.joints[joint].rest.shear));
         const std::uint32_t parent = scene.joints[joint].parent;
-        pose.joints[joint] = parent == kNone ? local : product(pose.joints[parent], local);
+        pose.joints[joint] = parent == kNone ? locals[joint] : product(pose.joints[parent], locals[joint]);
     }
+}
+
+/// Whether the track has the same value at all times.
+bool is_constant(const Track& track) {
+    const std::size_t n = track.components;
+    if (track.path == TrackPath::weights || track.interpolation == Interpolation::cubic) return false;
+    return std::equal(track.values.begin() + static_cast<std::ptrdiff_t>(n), track.values.end(), track.values.begin());
 }
 
 /// The number of the first key after a time. \param near  the key before it or the one before that, if known
@@ -130,7 +99,77 @@ std::size_t first_after(std::span<const float> times, double seconds, std::size_
     return static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), seconds) - times.begin());
 }
 
+/// The key before a time, and the share of the interval after it.
+struct Moment {
+    std::size_t left = 0;
+    double u = 0.0;
+    double length = 0.0;    // of the interval, seconds
+    bool is_at_key = true;  // on the left key, outside all keys, or stepped: the left key's value
+};
+
+Moment moment_of(const Track& track, double seconds, std::size_t near_key) {
+    Moment moment;
+    const std::size_t after = first_after(track.times, seconds, near_key);
+    const std::size_t left = moment.left = after == 0 ? 0 : after - 1;
+    moment.is_at_key = after == 0 || after == track.times.size() || track.times[left] == seconds ||
+                       track.interpolation == Interpolation::step;
+    if (moment.is_at_key) return moment;
+    moment.length = double{track.times[left + 1]} - track.times[left];
+    moment.u = (seconds - track.times[left]) / moment.length;
+    return moment;
+}
+
+bool is_turning(const Track& track) {
+    return track.path == TrackPath::rotation && track.interpolation == Interpolation::linear;
+}
+
+/// The arc from a key of a linear rotation to the next.
+Arc arc_of(const Track& track, std::size_t key) {
+    const auto rotation = [&](std::size_t k) {
+        const float* const at = track.values.data() + k * 4;
+        return Quaternion{at[0], at[1], at[2], at[3]};
+    };
+    return {rotation(key), rotation(key + 1)};
+}
+
 }  // namespace
+
+Arc::Arc(const Quaternion& from, const Quaternion& to) : from_(from), to_(to), is_point_(from == to) {
+    if (is_point_) return;
+    from_length_ = length_of(from_.data(), 4);
+    to_length_ = length_of(to_.data(), 4);
+    double dot = 0.0;
+    for (std::size_t c = 0; c < 4; ++c) dot += from_[c] * to_[c];
+    if (dot < 0.0) {
+        for (double& number : to_) number = -number;
+    }
+    scale_to(1.0, from_.data(), 4);
+    scale_to(1.0, to_.data(), 4);
+    Quaternion sum{};
+    Quaternion difference{};
+    for (std::size_t c = 0; c < 4; ++c) {
+        sum[c] = from_[c] + to_[c];
+        difference[c] = to_[c] - from_[c];
+    }
+    cosine_ = length_of(sum.data(), 4);
+    sine_ = length_of(difference.data(), 4);
+    if (sine_ > kShort) half_angle_ = trig::atan2(sine_, cosine_);
+}
+
+Quaternion Arc::at(double u) const {
+    if (is_point_) return from_;
+    double of_from = 1.0 - u;
+    double of_to = u;
+    if (sine_ > kShort) {
+        const trig::SinCos part = trig::sin_cos(u * 2.0 * half_angle_);
+        of_to = part.sin / (0.5 * sine_ * cosine_);
+        of_from = part.cos - 0.25 * (cosine_ * cosine_ - sine_ * sine_) * of_to;
+    }
+    Quaternion result{};
+    for (std::size_t c = 0; c < 4; ++c) result[c] = of_from * from_[c] + of_to * to_[c];
+    scale_to((1.0 - u) * from_length_ + u * to_length_, result.data(), 4);
+    return result;
+}
 
 void evaluate_track(const Track& track, double seconds, std::vector<double>& value) {
     std::size_t near_key = 0;
@@ -147,27 +186,24 @@ void evaluate_track(const Track& track, double seconds, std::vector<double>& val
     const std::size_t middle = cubic ? 1 : 0;  // offset of the value within a key
     value.resize(n);
 
-    const std::size_t after = first_after(track.times, seconds, near_key);
-    const std::size_t left = after == 0 ? 0 : after - 1;
-    near_key = left;
-    const bool holds = after == 0 || after == track.times.size() || track.times[left] == seconds;
-    if (holds || track.interpolation == Interpolation::step) {
+    const Moment moment = moment_of(track, seconds, near_key);
+    const std::size_t left = near_key = moment.left;
+    const double u = moment.u;
+    if (moment.is_at_key) {
         for (std::size_t c = 0; c < n; ++c) value[c] = at(left, middle, c);
         if (cubic && track.path == TrackPath::rotation) scale_to(1.0, value.data(), n);
         return;
     }
-    const double length = double{track.times[left + 1]} - track.times[left];
-    const double u = (seconds - track.times[left]) / length;
     if (cubic) {
-        for (std::size_t c = 0; c < n; ++c)
-            value[c] = hermite(at(left, 1, c), at(left, 2, c), at(left + 1, 0, c), at(left + 1, 1, c), u, length);
+        for (std::size_t c = 0; c < n; ++c) {
+            value[c] = hermite(at(left, 1, c), at(left, 2, c), at(left + 1, 0, c), at(left + 1, 1, c), u,
+                               moment.length);
+        }
         if (track.path == TrackPath::rotation) scale_to(1.0, value.data(), n);
         return;
     }
-    if (track.path == TrackPath::rotation) {
-        const Quaternion result =
-            slerp({at(left, 0, 0), at(left, 0, 1), at(left, 0, 2), at(left, 0, 3)},
-                  {at(left + 1, 0, 0), at(left + 1, 0, 1), at(left + 1, 0, 2), at(left + 1, 0, 3)}, u);
+    if (is_turning(track)) {
+        const Quaternion result = arc_of(track, left).at(u);
         std::copy(result.begin(), result.end(), value.begin());
         return;
     }
@@ -176,42 +212,90 @@ void evaluate_track(const Track& track, double seconds, std::vector<double>& val
 
 void evaluate_rest(const Scene& scene, EvaluatedPose& pose) {
     rest_weights(scene, pose);
-    to_model_space(scene, rest_locals(scene), pose);
+    std::vector<glm::dmat4> locals;
+    locals.reserve(scene.joints.size());
+    for (const Joint& joint : scene.joints) locals.push_back(rest_matrix(joint.rest));
+    to_model_space(scene, locals, pose);
 }
 
-void evaluate(const Scene& scene, const Clip& clip, double seconds, EvaluatedPose& pose) {
-    rest_weights(scene, pose);
-    std::vector<Placement> locals = rest_locals(scene);
-    std::vector<double> value;
-    pose.near_keys.resize(clip.tracks.size());
-    for (std::size_t number = 0; number < clip.tracks.size(); ++number) {
-        const Track& track = clip.tracks[number];
-        evaluate_track(track, seconds, value, pose.near_keys[number]);
-        switch (track.path) {
-            case TrackPath::translation:
-                locals[track.target].translation = {value[0], value[1], value[2]};
-                break;
-            case TrackPath::rotation:
-                locals[track.target].rotation = {value[0], value[1], value[2], value[3]};
-                break;
-            case TrackPath::scale:
-                locals[track.target].scale = {value[0], value[1], value[2]};
-                break;
-            case TrackPath::weights:
-                pose.morph_weights[track.target] = value;
-                break;
-        }
+ClipEvaluator::ClipEvaluator(const Scene& scene, const Clip& clip) : scene_(scene), clip_(clip) {
+    placements_.reserve(scene.joints.size());
+    for (const Joint& joint : scene.joints) {
+        const glm::vec4& r = joint.rest.rotation;
+        placements_.push_back({glm::dvec3(joint.rest.translation), {r.x, r.y, r.z, r.w}, glm::dvec3(joint.rest.scale)});
     }
-    for (const Play& play : clip.plays) {
-        const FramePair pair = frames_at(clip, play, seconds);
+    EvaluatedPose unused;
+    for (std::uint32_t number = 0; number < clip.tracks.size(); ++number) {
+        const Track& track = clip.tracks[number];
+        if (is_constant(track)) {
+            evaluate_track(track, 0.0, value_);
+            set(track, unused);
+            continue;
+        }
+        moving_.push_back({number});
+        if (track.path != TrackPath::weights) moved_.push_back(track.target);
+    }
+    std::sort(moved_.begin(), moved_.end());
+    moved_.erase(std::unique(moved_.begin(), moved_.end()), moved_.end());
+    locals_.resize(placements_.size());
+    for (std::size_t joint = 0; joint < placements_.size(); ++joint) {
+        const Placement& at = placements_[joint];
+        locals_[joint] = to_matrix(at.translation, at.rotation, at.scale, glm::dvec3(scene.joints[joint].rest.shear));
+    }
+}
+
+/// Takes over `value_`.
+void ClipEvaluator::set(const Track& track, EvaluatedPose& pose) {
+    switch (track.path) {
+        case TrackPath::translation:
+            placements_[track.target].translation = {value_[0], value_[1], value_[2]};
+            break;
+        case TrackPath::rotation:
+            placements_[track.target].rotation = {value_[0], value_[1], value_[2], value_[3]};
+            break;
+        case TrackPath::scale:
+            placements_[track.target].scale = {value_[0], value_[1], value_[2]};
+            break;
+        case TrackPath::weights:
+            pose.morph_weights[track.target] = value_;
+            break;
+    }
+}
+
+void ClipEvaluator::at(double seconds, EvaluatedPose& pose) {
+    rest_weights(scene_, pose);
+    for (Moving& moving : moving_) {
+        const Track& track = clip_.tracks[moving.track];
+        if (is_turning(track)) {
+            const Moment moment = moment_of(track, seconds, moving.near_key);
+            if (!moment.is_at_key) {
+                if (moving.arc_key != moment.left) moving.arc = arc_of(track, moment.left);
+                moving.arc_key = moving.near_key = moment.left;
+                placements_[track.target].rotation = moving.arc.at(moment.u);
+                continue;
+            }
+        }
+        evaluate_track(track, seconds, value_, moving.near_key);
+        set(track, pose);
+    }
+    for (const Play& play : clip_.plays) {
+        const FramePair pair = frames_at(clip_, play, seconds);
         std::vector<double>& weights = pose.morph_weights[play.mesh];
         const auto add = [&](std::uint32_t frame, double weight) {
-            if (frame != 0) weights[first_frame(scene.meshes[play.mesh]) + frame - 1] += weight;
+            if (frame != 0) weights[first_frame(scene_.meshes[play.mesh]) + frame - 1] += weight;
         };
         add(pair.left, 1.0 - pair.fraction);
         add(pair.right, pair.fraction);
     }
-    to_model_space(scene, locals, pose);
+    for (const std::uint32_t joint : moved_) {
+        const Placement& at = placements_[joint];
+        locals_[joint] = to_matrix(at.translation, at.rotation, at.scale, glm::dvec3(scene_.joints[joint].rest.shear));
+    }
+    to_model_space(scene_, locals_, pose);
+}
+
+void evaluate(const Scene& scene, const Clip& clip, double seconds, EvaluatedPose& pose) {
+    ClipEvaluator(scene, clip).at(seconds, pose);
 }
 
 std::vector<glm::dvec3> evaluate_vertices(const Mesh& mesh, const std::vector<double>& morph_weights,

@@ -5,7 +5,9 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -18,7 +20,6 @@ namespace bendy::converter {
 struct EvaluatedPose {
     std::vector<glm::dmat4> joints;                  ///< joint to model space
     std::vector<std::vector<double>> morph_weights;  ///< per mesh
-    std::vector<std::size_t> near_keys{};            ///< per track: where its keys are looked for first
 };
 
 /// The rest pose, with the targets' rest weights.
@@ -27,6 +28,53 @@ void evaluate_rest(const Scene& scene, EvaluatedPose& pose);
 /// A clip at a time on its time line, in seconds; tracks hold their first and last key. Properties that are not
 /// animated rest.
 void evaluate(const Scene& scene, const Clip& clip, double seconds, EvaluatedPose& pose);
+
+/// The shortest great arc between two rotations (x y z w). Lengths near 1 are interpolated as well.
+class Arc {
+public:
+    Arc() = default;
+    Arc(const std::array<double, 4>& from, const std::array<double, 4>& to);
+    /// \param u  0 to 1
+    [[nodiscard]] std::array<double, 4> at(double u) const;
+
+private:
+    std::array<double, 4> from_{}, to_{};  // unit, unless they are the same
+    double from_length_ = 1.0, to_length_ = 1.0;
+    double cosine_ = 0.0, sine_ = 0.0;  // twice those of half the angle
+    double half_angle_ = 0.0;           // radians
+    bool is_point_ = true;              // both are the same
+};
+
+/// Evaluates a clip at many times, as `evaluate` does. What no track moves is computed once.
+class ClipEvaluator {
+public:
+    /// Refers to both.
+    ClipEvaluator(const Scene& scene, const Clip& clip);
+    void at(double seconds, EvaluatedPose& pose);
+
+private:
+    struct Placement {
+        glm::dvec3 translation;
+        std::array<double, 4> rotation;  // x y z w
+        glm::dvec3 scale;
+    };
+    struct Moving {
+        std::uint32_t track = 0;
+        std::size_t near_key = 0;  // where its keys are looked for first
+        std::size_t arc_key = std::numeric_limits<std::size_t>::max();  // the arc is the one from this key
+        Arc arc{};
+    };
+
+    void set(const Track& track, EvaluatedPose& pose);
+
+    const Scene& scene_;
+    const Clip& clip_;
+    std::vector<Placement> placements_;  // per joint
+    std::vector<glm::dmat4> locals_;     // per joint: the matrix of its placement
+    std::vector<Moving> moving_;
+    std::vector<std::uint32_t> moved_;  // the joints of those tracks, each once
+    std::vector<double> value_;
+};
 
 /// One track's value at a time: `components` numbers. Linear rotations follow the shortest great arc, cubic ones are
 /// normalised.

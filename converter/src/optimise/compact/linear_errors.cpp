@@ -246,7 +246,8 @@ struct LinearErrors::ProbeSet {
     float radius = 0.0f;  // of all points around the middle
 };
 
-LinearErrors::LinearErrors(const ClipFrames& frames, const std::vector<std::vector<glm::dvec3>>& aims,
+LinearErrors::LinearErrors(const ClipFrames& frames, std::span<const JointPlan> plans,
+                           const std::vector<std::vector<glm::dvec3>>& aims,
                            const std::vector<std::vector<glm::dvec3>>& probes, bool corrects)
     : joints_(frames.joints()), corrects_(corrects) {
     for (std::size_t j = 0; j < joints_; ++j) {
@@ -276,15 +277,15 @@ LinearErrors::LinearErrors(const ClipFrames& frames, const std::vector<std::vect
         const std::size_t frame = tried < 2 ? 0 : std::min(k, tried - 1) * (frames.frames() - 1) / (tried - 1);
         frames.place(frame, pose);
         for (std::size_t j = 0; j < joints_; ++j)
-            read_joint(frames, frame, k % kLanes, j, pose, aims[j], coefficients_[k / kLanes * joints_ + j]);
+            read_joint(frames, frame, k % kLanes, j, pose, plans[j], aims[j], coefficients_[k / kLanes * joints_ + j]);
     }
 }
 
 LinearErrors::~LinearErrors() = default;
 
 void LinearErrors::read_joint(const ClipFrames& frames, std::size_t frame, std::size_t lane, std::size_t joint,
-                              std::span<const Affine> pose, const std::vector<glm::dvec3>& aims,
-                              JointFrames& out) const {
+                              std::span<const Affine> pose, const JointPlan& plan,
+                              const std::vector<glm::dvec3>& aims, JointFrames& out) const {
     const std::uint32_t parent = parents_[joint];
     const Local& local = frames.local(frame, joint);
     const glm::dmat3 above = parent == kNone ? glm::dmat3(1.0) : pose[parent].linear;
@@ -296,14 +297,21 @@ void LinearErrors::read_joint(const ClipFrames& frames, std::size_t frame, std::
     set_lane(out.local, lane, rotation * stretched);
     set_lane(out.translation, lane, local.translation);
     set_lane(out.scale, lane, local.scale);
-    const glm::dmat3 inverse = glm::inverse(above);
-    set_lane(out.below_above, lane, is_finite(inverse) ? inverse : glm::dmat3(0.0));
+    const auto is_corrected = [&](TrackPath path) {
+        return corrects_ && plan[index(path)].state == PropertyState::animated;
+    };
+    if (is_corrected(TrackPath::translation)) {
+        const glm::dmat3 inverse = glm::inverse(above);
+        set_lane(out.below_above, lane, is_finite(inverse) ? inverse : glm::dmat3(0.0));
+    }
     for (std::size_t path = 0; path < kPaths; ++path) {
         const glm::dvec3 value = frames.relative(frame, joint, static_cast<TrackPath>(path));
         for (std::size_t c = 0; c < 3; ++c) out.values[path][c].all[lane] = value[static_cast<int>(c)];
     }
+    if (plan[index(TrackPath::rotation)].state == PropertyState::unpacked) return;
     const glm::dmat3 jacobian = jacobian_of(frames.relative(frame, joint, TrackPath::rotation));
     set_lane(out.jacobian, lane, jacobian);
+    if (!is_corrected(TrackPath::rotation)) return;
 
     // The correction is the rotation that brings the aims nearest to their targets, by least squares.
     glm::dmat3 normal(0.0);
@@ -321,7 +329,7 @@ void LinearErrors::read_joint(const ClipFrames& frames, std::size_t frame, std::
     const glm::dmat3 back = glm::inverse(jacobian);
     const glm::dmat3 solve = back * glm::inverse(normal);
     constexpr double kMost = 30.0;  // near a full turn, rotation vectors change fast
-    const bool has_correction = corrects_ && damping > 0.0 && is_finite(solve) &&
+    const bool has_correction = damping > 0.0 && is_finite(solve) &&
                                 glm::length(back[0]) + glm::length(back[1]) + glm::length(back[2]) < kMost;
     set_lane(out.by_origin, lane, has_correction ? solve * right_by_origin : glm::dmat3(0.0));
     for (std::size_t c = 0; c < 3; ++c)

@@ -17,9 +17,11 @@ namespace bendy::converter {
 /// few multiplications per joint and frame, for several frames at a time.
 class LinearErrors {
 public:
+    /// \param plans   of all joints: those that are tried later differ in steps, or are at rest or constant instead
     /// \param aims    per joint, in its space: the points that its rotation corrects, see QuantiseOptions
     /// \param probes  per joint, see find_probes
-    LinearErrors(const ClipFrames& frames, const std::vector<std::vector<glm::dvec3>>& aims,
+    LinearErrors(const ClipFrames& frames, std::span<const JointPlan> plans,
+                 const std::vector<std::vector<glm::dvec3>>& aims,
                  const std::vector<std::vector<glm::dvec3>>& probes, bool corrects);
     ~LinearErrors();
     LinearErrors(const LinearErrors&) = delete;
@@ -46,7 +48,8 @@ private:
     bool try_block_avx2(std::span<const JointPlan> plans, std::size_t block, std::size_t first, std::size_t end);
     [[nodiscard]] bool is_near(const ProbeSet& probes, const Error& error) const;
     void read_joint(const ClipFrames& frames, std::size_t frame, std::size_t lane, std::size_t joint,
-                    std::span<const Affine> pose, const std::vector<glm::dvec3>& aims, JointFrames& out) const;
+                    std::span<const Affine> pose, const JointPlan& plan, const std::vector<glm::dvec3>& aims,
+                    JointFrames& out) const;
 
     std::size_t joints_;
     std::size_t blocks_ = 0;

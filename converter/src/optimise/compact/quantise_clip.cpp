@@ -47,7 +47,7 @@ public:
         for (const std::uint32_t number : packed) open_property(clip.tracks[number]);
         measure_reach();
         settle();
-        errors_.emplace(frames, aims_, probes, options.corrects);
+        errors_.emplace(frames, plans_, aims_, probes, options.corrects);
     }
 
     PackedSamples run(const Grid& grid) {
@@ -354,7 +354,7 @@ private:
     void grow_steps() {
         constexpr std::array<std::uint8_t, 4> kBy{4, 2, 2, 2};  // step code increments, by pass; later passes use 1
         constexpr std::size_t kTogether = 3;                    // passes
-        constexpr std::size_t kMostPasses = 40;
+        constexpr std::size_t kMostPasses = 8;
         constexpr std::uint8_t kLargest = 250;
         std::vector<Steps> steps = all_steps(true);
         std::uint32_t random = 7;
