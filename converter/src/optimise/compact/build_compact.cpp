@@ -3,6 +3,7 @@
 #include "optimise/compact/compact_geometry.h"
 #include "optimise/compact/pack_clips.h"
 #include "optimise/compact/pack_curve.h"
+#include "optimise/compact/round_weights.h"
 #include "optimise/measure_error.h"
 #include "optimise/sample_limits.h"
 #include "scene/evaluate.h"
@@ -32,8 +33,9 @@ namespace {
 // the same time, so the sum may exceed 1: the measurement decides.
 constexpr double kGeometryShare = 0.35;
 constexpr double kClipShare = 0.9;
+constexpr double kTrackShare = 0.3;  // rounding of the weights of morph targets in clips
 
-/// The geometry's share of the bound: nearly all of it if no clip moves a joint. Weights of morph targets stay exact.
+/// The geometry's share of the bound: nearly all of it if no clip moves a joint.
 double geometry_share_of(const Scene& scene) {
     constexpr double kStillShare = 0.9;  // the geometry is measured at the weights of some keys only
     if (scene.clips.empty()) return 1.0;
@@ -48,8 +50,14 @@ double geometry_share_of(const Scene& scene) {
 std::vector<MeasuredError> measure(const Scene& exact, const CompactGeometry& geometry, Bytes bytes,
                                    std::span<const std::uint32_t> clips, MeasureOptions options) {
     Report unheard;
-    const auto decoded = import_bendy(bytes, unheard);
+    auto decoded = import_bendy(bytes, unheard);
     if (!decoded) throw std::bad_alloc();  // what was just written can be read, if there is memory for it
+    for (Mesh& mesh : decoded->meshes) {  // what moves no vertex is not measured, and large
+        mesh.normals = {};
+        mesh.tangents = {};
+        mesh.texture_coords = mesh.colours = mesh.attributes = {};
+        mesh.submeshes = {};
+    }
     std::vector<std::vector<std::uint32_t>> maps;
     maps.reserve(geometry.meshes.size());
     for (const CompactMesh& mesh : geometry.meshes) maps.push_back(mesh.vertex_of);
@@ -135,6 +143,12 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
     const CompactGeometry geometry =
         compact_geometry(scene, result.max_error * geometry_share, part_of(progress, 0.0, geometry_done));
 
+    std::vector<std::vector<float>> steps;  // of the targets' weights in clips
+    for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+        const double most = kTrackShare * result.max_error / geometry.meshes[mesh].stretch;
+        steps.push_back(weight_steps(scene.meshes[mesh], most));
+    }
+
     const std::size_t clips = exact.clips.size();
     const auto shell = find_probes(exact, Probes::shell);
     std::vector<double> shares(clips, kClipShare);  // of the bound, for each clip
@@ -183,7 +197,9 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
         for (const std::uint32_t clip : to_pack) {
             scene.clips[clip] = exact.clips[clip];
             errors[clip] = {};
-            if (number + 1 < kAttempts) bounds[clip] = result.max_error * shares[clip];
+            if (number + 1 == kAttempts) continue;
+            round_weights(scene.clips[clip], steps, 2 * number);
+            bounds[clip] = result.max_error * shares[clip];
         }
         pack_clips(scene, bounds,
                    {.progress = part_of(progress, done, packing_done), .threads = threads, .only_keys = true});

@@ -345,7 +345,8 @@ CompactGeometry compact_geometry(Scene& scene, double most_error, const std::fun
         Mesh& mesh = scene.meshes[number];
         CompactMesh& compact = geometry.meshes.emplace_back();
         const SkinMatrices matrices = skin_matrices(mesh, poses);
-        const Budget budget{most_error, stretch_of(matrices), rests, poses};
+        compact.stretch = stretch_of(matrices);
+        const Budget budget{most_error, compact.stretch, rests, poses};
         compact.vertex_of.resize(mesh.positions.size());
         std::iota(compact.vertex_of.begin(), compact.vertex_of.end(), 0u);
         compact_mesh(scene, number, compact, budget, matrices, texels);

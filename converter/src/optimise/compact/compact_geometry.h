@@ -22,6 +22,7 @@ struct CompactMesh {
     std::vector<CompactTarget> targets;                                ///< as many
     std::optional<glm::mat4> bind_base;    ///< set if the inverse bind matrices follow from it and the rest pose
     std::vector<std::uint32_t> vertex_of;  ///< the new number of the source's vertex n
+    double stretch = 1.0;  ///< the most by which a displacement in the mesh's space is lengthened in model space
 };
 
 struct CompactGeometry {
