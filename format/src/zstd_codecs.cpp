@@ -18,7 +18,7 @@ namespace bendy {
 namespace {
 
 constexpr int kZstdLevel = 17;
-// Longer payloads get a level that is five times as fast, so that a mesh of a million vertices takes seconds.
+// Longer payloads get a faster level, so that a mesh of a million vertices takes seconds.
 constexpr std::size_t kLong = std::size_t{1} << 21U;
 constexpr int kLongLevel = 13;
 

@@ -179,10 +179,7 @@ TEST(DropUnused, VerticesThatDifferInAnyStreamStayApart) {
     EXPECT_EQ(vertices([](Mesh& mesh) { mesh.normals[3] = {0, 1, 0}; }), 5u);
     EXPECT_EQ(vertices([](Mesh& mesh) { mesh.colours[0].values[4 * 3 + 2] = 0.75f; }), 5u);
     EXPECT_EQ(vertices([](Mesh& mesh) { mesh.targets[0].positions[4].z = 1.0f; }), 5u);
-    EXPECT_EQ(vertices([](Mesh& mesh) {
-                  mesh.attributes.push_back({"_HEAT", 0, 1, {0, 1, 2, 3, 1, 5}});
-              }),
-              5u);
+    EXPECT_EQ(vertices([](Mesh& mesh) { mesh.attributes.push_back({"_HEAT", 0, 1, {0, 1, 2, 3, 1, 5}}); }), 5u);
     EXPECT_EQ(vertices([](Mesh& mesh) { mesh.positions[3].x = -0.0f; }), 5u) << "other bits";
     EXPECT_EQ(vertices([](Mesh& mesh) { mesh.collapse = {0, 1, 2, 0, 0, 0}; }), 6u) << "their order has a meaning";
     EXPECT_EQ(vertices([](Mesh& mesh) {

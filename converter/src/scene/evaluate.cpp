@@ -196,8 +196,8 @@ void evaluate_track(const Track& track, double seconds, std::vector<double>& val
     }
     if (cubic) {
         for (std::size_t c = 0; c < n; ++c) {
-            value[c] = hermite(at(left, 1, c), at(left, 2, c), at(left + 1, 0, c), at(left + 1, 1, c), u,
-                               moment.length);
+            value[c] =
+                hermite(at(left, 1, c), at(left, 2, c), at(left + 1, 0, c), at(left + 1, 1, c), u, moment.length);
         }
         if (track.path == TrackPath::rotation) scale_to(1.0, value.data(), n);
         return;

@@ -60,7 +60,7 @@ private:
     };
     struct Moving {
         std::uint32_t track = 0;
-        std::size_t near_key = 0;  // where its keys are looked for first
+        std::size_t near_key = 0;                                       // where its keys are looked for first
         std::size_t arc_key = std::numeric_limits<std::size_t>::max();  // the arc is the one from this key
         Arc arc{};
     };

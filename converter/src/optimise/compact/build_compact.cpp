@@ -52,7 +52,7 @@ std::vector<MeasuredError> measure(const Scene& exact, const CompactGeometry& ge
     Report unheard;
     auto decoded = import_bendy(bytes, unheard);
     if (!decoded) throw std::bad_alloc();  // what was just written can be read, if there is memory for it
-    for (Mesh& mesh : decoded->meshes) {  // what moves no vertex is not measured, and large
+    for (Mesh& mesh : decoded->meshes) {   // what moves no vertex is not measured, and large
         mesh.normals = {};
         mesh.tangents = {};
         mesh.texture_coords = mesh.colours = mesh.attributes = {};

@@ -284,8 +284,8 @@ LinearErrors::LinearErrors(const ClipFrames& frames, std::span<const JointPlan> 
 LinearErrors::~LinearErrors() = default;
 
 void LinearErrors::read_joint(const ClipFrames& frames, std::size_t frame, std::size_t lane, std::size_t joint,
-                              std::span<const Affine> pose, const JointPlan& plan,
-                              const std::vector<glm::dvec3>& aims, JointFrames& out) const {
+                              std::span<const Affine> pose, const JointPlan& plan, const std::vector<glm::dvec3>& aims,
+                              JointFrames& out) const {
     const std::uint32_t parent = parents_[joint];
     const Local& local = frames.local(frame, joint);
     const glm::dmat3 above = parent == kNone ? glm::dmat3(1.0) : pose[parent].linear;
@@ -329,8 +329,8 @@ void LinearErrors::read_joint(const ClipFrames& frames, std::size_t frame, std::
     const glm::dmat3 back = glm::inverse(jacobian);
     const glm::dmat3 solve = back * glm::inverse(normal);
     constexpr double kMost = 30.0;  // near a full turn, rotation vectors change fast
-    const bool has_correction = damping > 0.0 && is_finite(solve) &&
-                                glm::length(back[0]) + glm::length(back[1]) + glm::length(back[2]) < kMost;
+    const bool has_correction =
+        damping > 0.0 && is_finite(solve) && glm::length(back[0]) + glm::length(back[1]) + glm::length(back[2]) < kMost;
     set_lane(out.by_origin, lane, has_correction ? solve * right_by_origin : glm::dmat3(0.0));
     for (std::size_t c = 0; c < 3; ++c)
         set_lane(out.by_linear[c], lane, has_correction ? solve * right_by_linear[c] : glm::dmat3(0.0));

@@ -21,8 +21,8 @@ public:
     /// \param aims    per joint, in its space: the points that its rotation corrects, see QuantiseOptions
     /// \param probes  per joint, see find_probes
     LinearErrors(const ClipFrames& frames, std::span<const JointPlan> plans,
-                 const std::vector<std::vector<glm::dvec3>>& aims,
-                 const std::vector<std::vector<glm::dvec3>>& probes, bool corrects);
+                 const std::vector<std::vector<glm::dvec3>>& aims, const std::vector<std::vector<glm::dvec3>>& probes,
+                 bool corrects);
     ~LinearErrors();
     LinearErrors(const LinearErrors&) = delete;
     LinearErrors(LinearErrors&&) = delete;

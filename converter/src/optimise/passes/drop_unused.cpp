@@ -74,9 +74,8 @@ void add_readers_of_text(const std::string& text, Readers& readers) {
 
 Readers readers_of(const Material& material) {
     Readers readers;
-    for (const TextureUse* use :
-         {&material.base_colour_texture, &material.metallic_roughness_texture, &material.normal_texture,
-          &material.occlusion_texture, &material.emissive_texture}) {
+    for (const TextureUse* use : {&material.base_colour_texture, &material.metallic_roughness_texture,
+                                  &material.normal_texture, &material.occlusion_texture, &material.emissive_texture}) {
         if (use->texture != kNone) readers.coords.insert(use->coords);
     }
     readers.normals = !material.unlit;
@@ -164,10 +163,9 @@ void drop_unused(Scene& scene, Report& report) {
             }
         }
         Dropper dropper(mesh, "mesh " + (mesh.name.empty() ? '#' + std::to_string(number) : quote(mesh.name)), report);
-        dropper.drop_sets(mesh.texture_coords, "TEXCOORD_", "texture coordinates that no material uses are left out",
-                          [&](const Stream& stream) {
-                              return !readers.all_coords && !readers.coords.contains(stream.set);
-                          });
+        dropper.drop_sets(
+            mesh.texture_coords, "TEXCOORD_", "texture coordinates that no material uses are left out",
+            [&](const Stream& stream) { return !readers.all_coords && !readers.coords.contains(stream.set); });
         dropper.drop_sets(mesh.colours, "COLOR_", "colours that change nothing are left out",
                           [](const Stream& stream) { return stream.set != 0 || is_white(stream); });
         if (!readers.tangents) {

@@ -39,7 +39,8 @@ std::uint64_t hash_of(std::uint32_t vertex, std::span<const VertexRows> streams)
 }  // namespace
 
 std::vector<std::uint32_t> first_equal_vertices(std::size_t vertices, std::span<const VertexRows> streams) {
-    // Equal vertices have equal hashes. What decides is the order of their bytes, so that no choice of bytes takes long.
+    // Equal vertices have equal hashes. What decides is the order of their bytes, so that no choice of bytes takes
+    // long.
     std::vector<Hashed> order(vertices);
     for (std::uint32_t vertex = 0; vertex < vertices; ++vertex) order[vertex] = {hash_of(vertex, streams), vertex};
     const auto compare = [&](const Hashed& a, const Hashed& b) {
