@@ -115,7 +115,7 @@ public:
     [[nodiscard]] std::size_t size() const { return base_.size(); }
     [[nodiscard]] const std::vector<std::uint32_t>& joints() const { return joints_; }
     [[nodiscard]] const std::vector<Affine>& matrices() const { return matrices_; }
-    [[nodiscard]] glm::dvec3 base(std::size_t vertex) const { return glm::dvec3(base_[vertex]); }
+    [[nodiscard]] glm::dvec3 base(std::size_t vertex) const { return {base_[vertex]}; }
     [[nodiscard]] std::span<const Influence> influences(std::size_t vertex) const {
         return std::span(influences_).subspan(first_[vertex], first_[vertex + 1] - first_[vertex]);
     }

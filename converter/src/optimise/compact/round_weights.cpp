@@ -21,9 +21,10 @@ std::vector<float> weight_steps(const Mesh& mesh, double most_error) {
         if (target.is_frame) continue;  // it has no weight in a track
         for (const glm::vec3& shift : target.positions) reach[t] = std::max(reach[t], glm::length(glm::dvec3(shift)));
         if (!(reach[t] > 0.0)) continue;
-        for (std::size_t v = 0; v < target.positions.size(); ++v)
-            sums[v] +=
-                glm::dot(glm::dvec3(target.positions[v]), glm::dvec3(target.positions[v])) / (reach[t] * reach[t]);
+        for (std::size_t v = 0; v < target.positions.size(); ++v) {
+            const glm::dvec3 shift(target.positions[v]);
+            sums[v] += glm::dot(shift, shift) / (reach[t] * reach[t]);
+        }
     }
     const double most = sums.empty() ? 0.0 : std::sqrt(*std::max_element(sums.begin(), sums.end()));
     std::vector<float> steps;
