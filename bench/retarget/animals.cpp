@@ -17,10 +17,10 @@
 #include <utility>
 #include <vector>
 
-// bendy_bench_retarget_animals [--clips=PART] FILE...: puts each clip of each file, or those with PART in their names, on
-// each file, and prints what three kinds of retargeting do: directions only, with limits, with limits and feet. Judged by
-// the runtime's joint matrices; contacts are found here, by the height and speed of the source's ankles. All files need
-// roles (spec/chunks/ROLE.md). run.py has three.js judge humans.
+// bendy_bench_retarget_animals [--clips=PART] FILE...: puts each clip of each file, or those with PART in their names,
+// on each file, and prints what three kinds of retargeting do: directions only, with limits, with limits and feet.
+// Judged by the runtime's joint matrices; contacts are found here, by the height and speed of the source's ankles. All
+// files need roles (spec/chunks/ROLE.md). run.py has three.js judge humans.
 namespace {
 
 using namespace bendy;

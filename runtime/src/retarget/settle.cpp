@@ -20,6 +20,7 @@ namespace bendy {
 namespace {
 
 constexpr std::size_t kMostLimbs = 4;
+constexpr float kContactRounding = 0.005f;  // of contacts that are given: curves leave out keys
 constexpr double kFullTurn = 6.283185307179586;
 constexpr double kFarBeyond = 0.79, kMostBeyond = 1.57;  // radians: 45 and 90 degrees
 
@@ -89,8 +90,11 @@ private:
         limbs_[leg].planted = standing.weight;
     }
 
-    /// NaN counts as 0.
-    static float fraction(float weight) { return weight > 0.0f ? std::min(weight, 1.0f) : 0.0f; }
+    /// NaN counts as 0. A foot that is nearly in the air would still be drawn to where it stood before.
+    static float fraction(float weight) {
+        if (!(weight > kContactRounding)) return 0.0f;
+        return weight < 1.0f - kContactRounding ? weight : 1.0f;
+    }
 
     /// Constrains the joints from the trunk outwards. What a limit holds back, the joints below make up for: a hand
     /// keeps its orientation in space even if the elbow cannot turn.

@@ -151,7 +151,7 @@ private:
 /// Errors: other_model, and nothing changes; not_finite, and the pose is at rest.
 /// \param source    not `pose` itself
 /// \param contacts  such as from curves of the clip; otherwise found by the height of heel and toes above where they
-///                  are at rest
+///                  are at rest. Numbers within 0.005 of 0 or 1 count as these
 [[nodiscard]] Result<Retargeted, CallError> retarget(Pose& pose, Retarget& retarget, Pose& source, RetargetState& state,
                                                      const std::optional<ContactWeights>& contacts = std::nullopt);
 
