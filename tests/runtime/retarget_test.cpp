@@ -551,6 +551,9 @@ TEST(Retarget, ContactsMayBeGiven) {
     done = retarget(target.pose(), retargeted, source.pose(), state, ContactWeights{nan, 7, -1, nan});
     ASSERT_TRUE(done);
     EXPECT_EQ(done->contacts, (ContactWeights{0, 1, 0, 0}));
+    done = retarget(target.pose(), retargeted, source.pose(), state, ContactWeights{0.004f, 0.996f, 0.01f, 0.99f});
+    ASSERT_TRUE(done);
+    EXPECT_EQ(done->contacts, (ContactWeights{0, 1, 0.01f, 0.99f}));
 }
 
 TEST(Retarget, SaysWhichRolesAreMissing) {
