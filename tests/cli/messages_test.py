@@ -363,7 +363,7 @@ class Terminal(MessageCase):
         self.assertNotIn(COLOUR, self.bendy("inspect", "missing.bendy").stderr)
 
     def test_long_work_shows_how_far_it_is(self):
-        arguments = ("convert", SOURCE / "examples/mannequin.glb", "--compact", "-o", "c.bendy")
+        arguments = ("convert", SOURCE / "examples/mannequin.glb", "--lod", "-o", "c.bendy")
         status, text = self.on_terminal(*arguments, pause=0.15)
         self.assertEqual(status, 0)
         self.assertRegex(text, r"\rconverting mannequin\.glb (\[#* *\] +\d+ %, )?0:0\d")
