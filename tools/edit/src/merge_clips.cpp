@@ -294,7 +294,8 @@ private:
         if (differing == 0) return;
         log.warnings.push_back("the rest poses of " + std::to_string(differing) +
                                (differing == 1 ? " joint differ" : " joints differ") + ", most that of \"" +
-                               std::string(there_.skeleton.joints[worst].name) + "\": " + describe(most));
+                               std::string(there_.skeleton.joints[worst].name) + "\": " + describe(most) +
+                               "; if that is another body, retarget its clips instead");
     }
 
     const ObjectView& there_;
