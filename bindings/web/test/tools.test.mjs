@@ -263,6 +263,7 @@ test('clips are retargeted as by the program', async () => {
     assert.ok(edited.done.some((line) => line.startsWith('retargeted clip "Walk"') && line.includes('off by')), edited.done.join());
   }
   await assert.rejects(tools.retargetClips(bytes, source), { kind: 'edit', message: /"Idle"/ });
+  await assert.rejects(tools.retargetClips(bytes, source, { obeyconstraints: false }), { message: /did you mean obeyConstraints/ });
   await assert.rejects(tools.retargetClips(bytes, source, { clip: 'Wlak' }), { kind: 'edit', message: /Wlak/ });
   for (const wrong of [{ restPoses: 'magic' }, { sameName: 'magic' }, { plantsFeet: 'no' }]) {
     await assert.rejects(tools.retargetClips(bytes, source, { clip: 'Walk', ...wrong }), { kind: 'bad_argument' });

@@ -57,15 +57,18 @@ async function edited(request: object, inputs: Inputs): Promise<Edited> {
   return { bytes: made[0]!.bytes, done: answer.done, warnings: answer.warnings };
 }
 
-/** Throws BAD_ARGUMENT for an option that `convert` does not have. */
-function checkOptions(options: object): void {
-  const known: readonly string[] = programOptions;
-  const isKnown = (name: string): boolean => known.includes(name) && name !== 'maxError' && name !== 'root';
+const convertOptions: readonly string[] = programOptions.filter((name) => name !== 'maxError' && name !== 'root');
+const retargetOptions: Record<keyof RetargetClipsOptions, true> = {
+  clip: true, sameName: true, restPoses: true, obeyConstraints: true, plantsFeet: true,
+};
+
+/** Throws BAD_ARGUMENT for an option that a function does not have. */
+function checkOptions(caller: string, options: object, known: readonly string[]): void {
   for (const name of Object.keys(options)) {
-    if (isKnown(name)) continue;
-    const meant = known.find((one) => isKnown(one) && one.toLowerCase() === name.replace(/[-_]/g, '').toLowerCase());
+    if (known.includes(name)) continue;
+    const meant = known.find((one) => one.toLowerCase() === name.replace(/[-_]/g, '').toLowerCase());
     const hint = meant === undefined ? '' : `; did you mean ${meant}?`;
-    throw new BendyError('bad_argument', `convert has no option ${JSON.stringify(name)}${hint}`);
+    throw new BendyError('bad_argument', `${caller} has no option ${JSON.stringify(name)}${hint}`);
   }
 }
 
@@ -77,7 +80,7 @@ function checkOptions(options: object): void {
  */
 export async function convert(source: Source, options: ConvertOptions = {}): Promise<Conversion> {
   const { main, rig, compact, progress, scene, ...others } = options;
-  checkOptions(others);
+  checkOptions('convert', others, convertOptions);
   if (compact !== undefined && typeof compact !== 'boolean' && typeof compact !== 'string') {
     throw new BendyError('bad_argument', `compact is ${described(compact)}, not true or the largest error, "0.1mm"`);
   }
@@ -200,7 +203,8 @@ export function mergeClips(bytes: FileBytes, other: FileBytes, options: { sameNa
  * Puts clips of another bendy file on this character, whatever its build: see docs/retarget.md. Both characters need roles. `done` has
  * a line for each clip with what had to give way, and `warnings` what is lost.
  */
-export function retargetClips(bytes: FileBytes, other: FileBytes, options: RetargetClipsOptions = {}): Promise<Edited> {
+export async function retargetClips(bytes: FileBytes, other: FileBytes, options: RetargetClipsOptions = {}): Promise<Edited> {
+  checkOptions('retargetClips', options, Object.keys(retargetOptions));
   const { clip = '', sameName = 'error', ...others } = options;
   const request = { ...others, do: 'retargetClips', other: 'b.bendy', clip: String(clip), sameName };
   return edited(request, { 'a.bendy': asBytes(bytes), 'b.bendy': asBytes(other) });

@@ -44,7 +44,7 @@ const BaseElement = (globalThis.HTMLElement ?? class {}) as typeof HTMLElement;
  * An element that shows a character. It loads when it comes near the visible part of the page, and draws only while something moves.
  *
  * Attributes, which are properties too: `src`, the address of the file; `motions`, the address of another file, whose clips the character
- * plays in place of its own, whatever its build, if the joints of both have roles; `clip`, by name or number, the first one if absent,
+ * plays in place of its own, whatever its build, if the joints of both have roles; `clip`, by name or number, which repeats, the first one if absent,
  * at rest if empty; `poster`, an image to show until then; `alt`, a description; `camera-controls` (`cameraControls`), whether pointer,
  * wheel and keys turn the camera; `paused`, whether time stands still. If the reader prefers reduced motion, it starts paused, and `play` plays.
  */
@@ -339,7 +339,7 @@ export class BendyViewerElement extends BaseElement {
     const clip = this.clip ?? (animator.clips.length > 0 ? 0 : '');
     try {
       if (clip === '') this.#stage!.rest();
-      else animator.play(clip, { fade });
+      else animator.play(clip, { fade, loop: true }); // glTF does not say which clips repeat
     } catch (error) {
       this.#fail(error);
     }
