@@ -528,6 +528,23 @@ class Merge(EditCase):
             self.done("convert", name)
         return "two.bendy", "motion.bendy"
 
+    def test_what_is_left_out_does_not_change_the_order_of_keys(self):
+        """Keys are stored in the order in which tracks use them, as convert does: an export converts to the same bytes."""
+        for name, joints in (("here", "BC"), ("there", "ABC")):
+            file = GltfFile(nodes=[{"name": joint} for joint in joints], scenes=[{"nodes": list(range(len(joints)))}])
+            times = file.add([(0,), (1,)], "SCALAR")
+            shared, own = (file.add([(0, height, 0), (0, 3, 0)], "VEC3") for height in (1, 2))
+            if name == "there":  # A and C have the same keys
+                file.document["animations"] = [{
+                    "name": "move", "samplers": [{"input": times, "output": values} for values in (shared, own, shared)],
+                    "channels": [{"sampler": node, "target": {"node": node, "path": "translation"}} for node in range(3)]}]
+            file.write(self.folder / f"{name}.gltf")
+            self.done("convert", "-q", f"{name}.gltf")
+        merged = self.edit("here.bendy", "--merge", "there.bendy")
+        self.done("export", merged, "-q", "-o", "merged.glb")
+        self.done("convert", "merged.glb", "-q", "-o", "again.bendy")
+        self.assertEqual(Path(merged).read_bytes(), (self.folder / "again.bendy").read_bytes())
+
     def test_joints_that_several_have_the_name_of_are_named(self):
         two, motion = self.two_characters()
         self.edit(two, "--merge", motion)  # Tail1 is there once

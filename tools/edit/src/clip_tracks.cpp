@@ -17,33 +17,40 @@ namespace {
 /// size.
 constexpr std::uint64_t kMostCopies = 64;
 
-/// The parts of an array that are kept, moved together; parts that are shared remain shared.
+/// The parts of an array that are kept, in the order in which they are added first, as a converted file has them; parts
+/// that are shared remain shared.
 class KeptRuns {
 public:
-    void add(std::uint64_t first, std::uint64_t count) { runs_.push_back({first, first + count, 0}); }
+    void add(std::uint64_t first, std::uint64_t count) { added_.push_back({first, first + count, 0}); }
     void finish() {
+        runs_ = added_;
         std::sort(runs_.begin(), runs_.end(), [](const Run& a, const Run& b) { return a.first < b.first; });
         std::vector<Run> joined;
         for (const Run& run : runs_) {
-            if (!joined.empty() && run.first <= joined.back().end) {
+            if (!joined.empty() && (run.first < joined.back().end || run.first == joined.back().first)) {
                 joined.back().end = std::max(joined.back().end, run.end);
             } else {
-                const std::uint64_t now =
-                    joined.empty() ? 0 : joined.back().now + joined.back().end - joined.back().first;
-                joined.push_back({run.first, run.end, now});
+                joined.push_back({run.first, run.end, kNowhere});
             }
         }
         runs_ = std::move(joined);
+        std::uint64_t count = 0;
+        for (const Run& part : added_) {
+            Run& run = *run_at(part.first);
+            if (run.now != kNowhere) continue;
+            run.now = count;
+            count += run.end - run.first;
+        }
     }
-    [[nodiscard]] std::uint64_t now(std::uint64_t first) const {
-        const auto after = std::upper_bound(runs_.begin(), runs_.end(), first,
-                                            [](std::uint64_t wanted, const Run& run) { return wanted < run.first; });
-        const Run& run = *std::prev(after);
+    [[nodiscard]] std::uint64_t now(std::uint64_t first) {
+        const Run& run = *run_at(first);
         return run.now + first - run.first;
     }
     [[nodiscard]] std::vector<float> take(std::span<const float> from) const {
+        std::vector<Run> ordered = runs_;
+        std::sort(ordered.begin(), ordered.end(), [](const Run& a, const Run& b) { return a.now < b.now; });
         std::vector<float> out;
-        for (const Run& run : runs_) {
+        for (const Run& run : ordered) {
             out.insert(out.end(), from.begin() + static_cast<std::ptrdiff_t>(run.first),
                        from.begin() + static_cast<std::ptrdiff_t>(run.end));
         }
@@ -54,7 +61,15 @@ private:
     struct Run {
         std::uint64_t first, end, now;
     };
-    std::vector<Run> runs_;
+    static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
+
+    std::vector<Run>::iterator run_at(std::uint64_t first) {
+        const auto after = std::upper_bound(runs_.begin(), runs_.end(), first,
+                                            [](std::uint64_t wanted, const Run& run) { return wanted < run.first; });
+        return std::prev(after);
+    }
+
+    std::vector<Run> added_, runs_;
 };
 
 std::span<const float> floats_in(const ChunkTree& tree, std::uint32_t clip, FourCC id) {
