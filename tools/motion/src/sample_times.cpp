@@ -68,7 +68,9 @@ std::vector<float> sample_times(const Clip& clip, std::size_t most) {
     };
     for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
         const double gap = double{keys[k + 1]} - keys[k];
-        fill(keys[k], keys[k + 1], std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(gap / step - 1e-3))));
+        const double parts = std::ceil(gap / step - 1e-3);  // not a number if the clip is endless
+        fill(keys[k], keys[k + 1],
+             parts > 1.0 ? static_cast<std::size_t>(std::min(parts, static_cast<double>(most))) : 1);
     }
     if (times.size() >= most) {
         times.clear();
