@@ -112,6 +112,19 @@ def check_changes(bendy, path, rig, folder):
     check(now['iterations'] == 33 and now['start'] == first['chains'][0]['start'], f'{now}')
 
 
+def check_warning(rig, is_given):
+    """Imported chains that are enabled act in all actions of an export, which warns of it."""
+    from bendy_rig.export_operator import ExportOptions
+    from types import SimpleNamespace
+    told = []
+    operator = SimpleNamespace(export_animations=True, bl_label='Export', report=lambda _level, text: told.append(text))
+    added = [bpy.data.actions.new(name) for name in ('one', 'two')]
+    ExportOptions.warn_of_enabled_chains(operator, bpy.context)
+    check([f'act in all {len(bpy.data.actions)} actions' in text for text in told] == [True] * is_given, f'{rig.name}: {told}')
+    for action in added:
+        bpy.data.actions.remove(action)
+
+
 def main():
     bendy, path, folder = arguments()
     rig = only_armature()
@@ -122,9 +135,11 @@ def main():
     rig = only_armature()
     joints, chains = compare(source, ({bone.name: limits_of(bone) for bone in rig.pose.bones}, chains_of(rig)))
     check_muted(rig, False)
+    check_warning(rig, True)
     bpy.context.view_layer.objects.active = rig
     bpy.ops.pose.bendy_constraints(enable=False)
     check_muted(rig, True)
+    check_warning(rig, False)
     check_changes(bendy, path, rig, folder)
     bpy.ops.pose.bendy_constraints(enable=True)
     if rig.animation_data:

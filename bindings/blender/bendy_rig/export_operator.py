@@ -8,12 +8,18 @@ from bpy_extras.io_utils import ExportHelper
 
 from .export_hooks import LastExport
 from .gltf_exporter import check_file, exporter_options, run_exporter, what_failed
+from .kept_records import is_imported
 from .program import BendyError, find_program, run_program
 
 # A clip is its whole action, at every frame, and vertices keep all their influences.
 BENDY_OPTIONS = {'export_format': 'GLB', 'export_frame_range': False, 'export_optimize_animation_size': False,
                  'export_all_influences': True}
 PARTS = 3                           # of an export, for the progress bar: Blender's exporter takes most of the time
+
+
+def has_enabled_chain(rig):
+    return rig.type == 'ARMATURE' and any(constraint.type == 'IK' and not constraint.mute and is_imported(bone, constraint)
+                                          for bone in rig.pose.bones for constraint in bone.constraints)
 
 
 class ExportOptions:
@@ -33,6 +39,12 @@ class ExportOptions:
             self.report({'WARNING'}, f'{self.bl_label}: {"; ".join(LastExport.report.notes)}')
         self.report({'INFO'}, f'{os.path.basename(path)}: {LastExport.report.summary()}')
 
+    def warn_of_enabled_chains(self, context):
+        """Blender's exporter plays each clip with the constraints as they are now."""
+        if self.export_animations and len(bpy.data.actions) > 1 and any(map(has_enabled_chain, context.scene.objects)):
+            self.report({'WARNING'}, f'{self.bl_label}: imported IK constraints are enabled, so they act in all {len(bpy.data.actions)} actions: '
+                                     'to keep the others as they are, export this one alone and add it with "bendy edit --merge"')
+
     def fail(self, error):
         self.report({'ERROR'}, f'{self.bl_label}: {what_failed(error)}')
         return {'CANCELLED'}
@@ -51,6 +63,7 @@ class EXPORT_SCENE_OT_bendy(bpy.types.Operator, ExportHelper, ExportOptions):
 
     def execute(self, context):
         path, manager = bpy.path.ensure_ext(bpy.path.abspath(self.filepath), '.bendy'), context.window_manager
+        self.warn_of_enabled_chains(context)
         manager.progress_begin(0, PARTS)
         try:
             find_program()          # before the long part
@@ -86,6 +99,7 @@ class EXPORT_SCENE_OT_bendy_rig(bpy.types.Operator, ExportHelper, ExportOptions)
         path = self.filepath
         if os.path.splitext(path)[1].lower() not in ('.glb', '.gltf'):
             path += '.glb'
+        self.warn_of_enabled_chains(context)
         try:
             run_exporter(context, path, exporter_options(self, context, path, {}))
             check_file(path, LastExport.report)
