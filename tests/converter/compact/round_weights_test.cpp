@@ -68,5 +68,13 @@ TEST(RoundWeights, OnlyStepAndLinearTracksOfWeights) {
     EXPECT_EQ(clip.tracks[0].values, (std::vector<float>{0.25f, 0.25f, 1.0f, 0.0f}));
 }
 
+TEST(RoundWeights, HugeWeightsStayFinite) {
+    Clip clip;
+    const float huge = std::numeric_limits<float>::max();
+    clip.tracks.push_back({TrackPath::weights, Interpolation::linear, 0, 1, {0.0f, 1.0f}, {huge, 0.3f}});
+    round_weights(clip, {{0.25f}}, 0);
+    EXPECT_EQ(clip.tracks[0].values, (std::vector<float>{huge, 0.25f}));
+}
+
 }  // namespace
 }  // namespace bendy::converter::round_weights_test

@@ -43,7 +43,8 @@ void round_weights(Clip& clip, const std::vector<std::vector<float>>& steps, int
         const std::vector<float>& of_mesh = steps[track.target];
         for (std::size_t at = 0; at < track.values.size(); ++at) {
             const float step = std::ldexp(of_mesh[at % track.components], -finer);
-            track.values[at] = std::nearbyint(track.values[at] / step) * step;
+            const float rounded = std::nearbyint(track.values[at] / step) * step;
+            if (std::isfinite(rounded)) track.values[at] = rounded;
         }
     }
 }
