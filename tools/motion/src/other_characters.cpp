@@ -1,5 +1,7 @@
 #include "other_characters.h"
 
+#include <bendy/format/role.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -39,12 +41,11 @@ std::optional<std::string> tell_other_characters(const Model& model, const char*
             carries[joint] = true;
     }
     if (hips == kNone) return std::nullopt;
-    constexpr std::uint32_t kFewest = 12;
     std::string others;
     std::uint32_t carrier = kNone;  // the lowest joint above the hips that another character is beside, or none
     for (std::uint32_t joint = 0; joint < counts.size(); ++joint) {
         const bool is_beside = !carries[joint] && (parents[joint] == kNone || carries[parents[joint]]);
-        if (!is_beside || counts[joint] < kFewest || 2 * counts[joint] < counts[hips]) continue;
+        if (!is_beside || counts[joint] < kFewestCharacterJoints || 2 * counts[joint] < counts[hips]) continue;
         bool is_above = parents[joint] == kNone;
         for (std::uint32_t above = parents[hips]; above != kNone; above = parents[above])
             is_above = is_above || above == parents[joint];

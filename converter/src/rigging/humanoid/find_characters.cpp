@@ -1,5 +1,7 @@
 #include "find_characters.h"
 
+#include <bendy/format/role.h>
+
 #include <cstddef>
 
 namespace bendy::converter {
@@ -14,7 +16,7 @@ std::vector<std::uint32_t> find_branches(const Scene& scene, const std::vector<b
     std::vector<std::vector<std::uint32_t>> large(counts.size() + 1);  // children by parent, the roots last
     for (std::uint32_t joint = 0; joint < counts.size(); ++joint) {
         const std::uint32_t parent = scene.joints[joint].parent;
-        if (counts[joint] >= kFewestJoints) large[parent == kNone ? counts.size() : parent].push_back(joint);
+        if (counts[joint] >= kFewestCharacterJoints) large[parent == kNone ? counts.size() : parent].push_back(joint);
     }
     std::size_t carrier = counts.size();
     while (large[carrier].size() == 1) carrier = large[carrier].front();
