@@ -1,4 +1,5 @@
-#include <bendy/format/diagnostics.h>
+#include "bodies.h"
+
 #include <bendy/runtime.h>
 
 #include <glm/geometric.hpp>
@@ -336,25 +337,21 @@ void compare(std::vector<std::pair<std::string, Rig>>& rigs, const std::string& 
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::vector<std::pair<std::string, Rig>> rigs;
     const std::string_view option = "--clips=";
     std::string part;
+    std::vector<const char*> paths;
     for (int k = 1; k < argc; ++k) {
-        if (std::string_view(argv[k]).substr(0, option.size()) == option) {
+        if (std::string_view(argv[k]).starts_with(option)) {
             part = std::string_view(argv[k]).substr(option.size());
-            continue;
+        } else {
+            paths.push_back(argv[k]);
         }
-        const auto model = Model::open(argv[k]);
-        if (!model) {
-            std::fprintf(stderr, "%s: cannot be opened\n", argv[k]);
-            return 1;
-        }
-        if (const auto own = Retarget::make(*model, *model); !own) {
-            std::fprintf(stderr, "%s: %s\n", argv[k], error_text(own.error()).c_str());
-            continue;
-        }
-        rigs.emplace_back(std::filesystem::path(argv[k]).stem().string(), Rig(*model));
     }
+    const auto bodies = bench::open_bodies(paths);
+    if (!bodies) return 1;
+    std::vector<std::pair<std::string, Rig>> rigs;
+    for (const auto& [path, model] : *bodies)
+        rigs.emplace_back(std::filesystem::path(path).stem().string(), Rig(model));
     compare(rigs, part);
     return 0;
 }

@@ -1,13 +1,14 @@
+#include "bodies.h"
+
 #include <bendy/runtime.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
-#include <filesystem>
 #include <limits>
-#include <string>
+#include <span>
 #include <utility>
-#include <vector>
 
 // bendy_bench_retarget FILE...: how long a frame takes if the clips of each file are put on each file, of four kinds of
 // retargeting. All files need roles (spec/chunks/ROLE.md). run.py judges what comes out.
@@ -56,28 +57,17 @@ void time_clips(const Model& from, const Model& to, const RetargetOptions& optio
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::vector<Model> models;
-    for (int k = 1; k < argc; ++k) {
-        const auto model = Model::open(argv[k]);
-        if (!model) {
-            std::fprintf(stderr, "%s: cannot be opened\n", argv[k]);
-            return 1;
-        }
-        if (const auto own = Retarget::make(*model, *model); !own) {
-            std::fprintf(stderr, "%s: %s\n", argv[k], error_text(own.error()).c_str());
-            continue;
-        }
-        models.push_back(*model);
-    }
+    const auto bodies = bench::open_bodies(std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
+    if (!bodies) return 1;
     const std::pair<const char*, RetargetOptions> kinds[] = {{"directions", {RestPoses::measured, false, false}},
                                                              {"limits", {RestPoses::measured, true, false}},
                                                              {"feet", {RestPoses::measured, false, true}},
                                                              {"limits and feet", {RestPoses::measured, true, true}}};
     for (const auto& [name, options] : kinds) {
         Mean mean;
-        for (std::size_t from = 0; from < models.size(); ++from) {
-            for (std::size_t to = 0; to < models.size(); ++to) {
-                if (from != to) time_clips(models[from], models[to], options, mean);
+        for (const auto& from : *bodies) {
+            for (const auto& to : *bodies) {
+                if (&from != &to) time_clips(from.model, to.model, options, mean);
             }
         }
         std::printf("%-16s %7.2f us a frame, %zu frames\n", name, mean.total / static_cast<double>(mean.count),

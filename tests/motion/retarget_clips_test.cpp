@@ -103,28 +103,33 @@ TEST(RetargetClips, ACharacterItselfKeepsItsTracksByteForByte) {
     EXPECT_TRUE(log.warnings.empty());
 }
 
+/// The clip "Swing" of `source` puts `body` where Retarget puts it.
+void expect_tracks_as_retargeted(const BodyModel& body, const Buffer& source) {
+    edit::Log log;
+    const test::Owned made(retargeted(counted(body.spec), source, {"", kDirections}, log));
+    const test::Owned there(source);
+    auto retarget = Retarget::make(*there, *made, kDirections);
+    ASSERT_TRUE(retarget);
+    Pose from(*there), wanted(*made), played(*made);
+    RetargetState state;
+    for (int k = 0; k <= 1000; ++k) {
+        const float seconds = static_cast<float>(k) / 1000.0f;
+        ASSERT_TRUE(sample(from, there->clip("Swing"), seconds));
+        ASSERT_TRUE(bendy::retarget(wanted, *retarget, from, state));
+        ASSERT_TRUE(sample(played, made->clip("Swing"), seconds));
+        for (std::size_t joint = 0; joint < made->joints().size(); ++joint) {
+            const glm::vec3 off(played.model_space()[joint][3] - wanted.model_space()[joint][3]);
+            EXPECT_LT(glm::length(off), 1e-3f) << made->joints()[joint].name << " at " << seconds;
+        }
+    }
+}
+
 TEST(RetargetClips, TracksSayWhatRetargetSays) {
     const Buffer source = swinger();
     for (const HumanSpec& build :
          {HumanSpec{.arms_down = 60, .thigh = 0.3, .axes = 4}, HumanSpec{.facing = 90, .spine = 2, .axes = 5},
           HumanSpec{.is_z_up = true, .spine = 1, .is_detached = true, .axes = 6}}) {
-        edit::Log log;
-        const test::Owned made(retargeted(counted(HumanModel(build).spec), source, {"", kDirections}, log));
-        const test::Owned there(source);
-        auto retarget = Retarget::make(*there, *made, kDirections);
-        ASSERT_TRUE(retarget);
-        Pose from(*there), wanted(*made), played(*made);
-        RetargetState state;
-        for (int k = 0; k <= 1000; ++k) {
-            const float seconds = static_cast<float>(k) / 1000.0f;
-            ASSERT_TRUE(sample(from, there->clip("Swing"), seconds));
-            ASSERT_TRUE(bendy::retarget(wanted, *retarget, from, state));
-            ASSERT_TRUE(sample(played, made->clip("Swing"), seconds));
-            for (std::size_t joint = 0; joint < made->joints().size(); ++joint) {
-                const glm::vec3 off(played.model_space()[joint][3] - wanted.model_space()[joint][3]);
-                EXPECT_LT(glm::length(off), 1e-3f) << made->joints()[joint].name << " at " << seconds;
-            }
-        }
+        expect_tracks_as_retargeted(HumanModel(build), source);
     }
 }
 
@@ -260,22 +265,7 @@ TEST(RetargetClips, AnimalsPlayTheClipsOfOtherAnimals) {
     ASSERT_EQ(planted->clip("Swing")->curves.size(), ContactWeights().size());
     EXPECT_EQ(planted->clip("Swing")->curves[4].name, "left_front_heel_contact");
 
-    const test::Owned made(retargeted(counted(horse.spec), source, {"", kDirections}, log));
-    const test::Owned there(source);
-    auto retarget = Retarget::make(*there, *made, kDirections);
-    ASSERT_TRUE(retarget);
-    Pose from(*there), wanted(*made), played(*made);
-    RetargetState state;
-    for (int k = 0; k <= 120; ++k) {
-        const float seconds = static_cast<float>(k) / 120.0f;
-        ASSERT_TRUE(sample(from, there->clip("Swing"), seconds));
-        ASSERT_TRUE(bendy::retarget(wanted, *retarget, from, state));
-        ASSERT_TRUE(sample(played, made->clip("Swing"), seconds));
-        for (std::size_t joint = 0; joint < made->joints().size(); ++joint) {
-            const glm::vec3 off(played.model_space()[joint][3] - wanted.model_space()[joint][3]);
-            ASSERT_LT(glm::length(off), 0.001f) << made->joints()[joint].name << " at " << seconds;
-        }
-    }
+    expect_tracks_as_retargeted(horse, source);
 
     // The horse's own clip comes back unchanged.
     const Buffer own = file_of(horse, {swinging(horse, "Swing", 0.2)});

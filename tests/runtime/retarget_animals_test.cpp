@@ -5,6 +5,7 @@
 #include "runtime/animal_model.h"
 #include "runtime/human_model.h"
 #include "runtime/local_joints.h"
+#include "runtime/posed_body.h"
 
 #include <gtest/gtest.h>
 
@@ -21,10 +22,13 @@
 namespace bendy::retarget_animals_test {
 namespace {
 
+using test::angle_of;
 using test::AnimalModel;
 using test::AnimalSpec;
 using test::HumanModel;
 using test::HumanSpec;
+using test::kDirections;
+using test::made;
 
 /// A horse is as long in the cannon as a fox in the forearm: its wrist is high above the ground.
 const AnimalSpec kHorse{.body = {.axes = 3},
@@ -34,64 +38,17 @@ const AnimalSpec kHorse{.body = {.axes = 3},
                         .front_leans = {-42.0, -3.0, -8.0},
                         .trunk = 1.3};
 
-double angle_of(const glm::dquat& a, const glm::dquat& b) {
-    const glm::dquat d = glm::conjugate(a) * b;
-    return 2.0 * std::atan2(std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z), std::abs(d.w));
-}
-
 /// An animal and a pose of it.
-class Animal {
+class Animal : public test::PosedBody<AnimalModel> {
 public:
-    explicit Animal(const AnimalSpec& spec)
-        : spec_(spec), animal_(spec), model_(animal_.file()), pose_(*model_), rest_(*model_) {}
+    explicit Animal(const AnimalSpec& spec) : PosedBody(AnimalModel(spec), spec.body.facing), spec_(spec) {}
 
-    [[nodiscard]] const Model& model() const { return *model_; }
     [[nodiscard]] const AnimalSpec& spec() const { return spec_; }
-    Pose& pose() { return pose_; }
-    [[nodiscard]] std::uint32_t joint(const std::string& name) const { return animal_.joint(name); }
-    /// In axes of the body, as all places and turns.
-    glm::dvec3 place(const std::string& name) { return back() * glm::dvec3(pose_.model_space()[joint(name)][3]); }
-    glm::dvec3 rest_place(const std::string& name) { return back() * glm::dvec3(rest_.model_space()[joint(name)][3]); }
-    glm::dvec3 way(const std::string& from, const std::string& to) { return glm::normalize(place(to) - place(from)); }
-    /// Since rest.
-    glm::dquat turn(const std::string& name) {
-        const glm::dmat3 now(pose_.model_space()[joint(name)]);
-        const glm::dmat3 rest(rest_.model_space()[joint(name)]);
-        return back() * glm::normalize(glm::quat_cast(now * glm::inverse(rest))) * glm::conjugate(back());
-    }
-    void pose_at_random(unsigned seed, double size) {
-        std::mt19937 random(seed);
-        std::normal_distribution<double> number;
-        pose_.set_rest();
-        for (const JointRole& role : model_->roles()) {
-            const glm::dquat turn =
-                glm::normalize(glm::dquat(1.0, size * number(random), size * number(random), size * number(random)));
-            test::local_of(pose_, role.joint)->rotation =
-                glm::quat(turn * glm::dquat(pose_.local(role.joint).rotation));
-        }
-        move_hips({0.1, 0.05, -0.2});
-    }
-    /// Along the axes of the root's space.
-    void move_hips(const glm::vec3& way) { test::local_of(pose_, joint("hips"))->translation += way; }
 
 private:
-    [[nodiscard]] glm::dquat back() const {
-        return glm::angleAxis(-spec_.body.facing * M_PI / 180.0, glm::dvec3(0, 1, 0));
-    }
-
     AnimalSpec spec_;
-    AnimalModel animal_;
-    test::Owned model_;
-    Pose pose_, rest_;
 };
 
-Retarget made(const Animal& source, const Animal& target, const RetargetOptions& options = {}) {
-    auto retarget = Retarget::make(source.model(), target.model(), options);
-    EXPECT_TRUE(retarget) << (retarget ? "" : error_text(retarget.error()));
-    return *std::move(retarget);
-}
-
-constexpr RetargetOptions kDirections{RestPoses::measured, false, false};
 constexpr const char* kLegs[] = {"leftHind", "rightHind", "leftFront", "rightFront"};
 
 /// Bones above the foot, which is the wrist of an animal with low wrists.

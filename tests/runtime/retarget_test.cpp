@@ -5,6 +5,7 @@
 #include "retarget/target_names.h"
 #include "runtime/human_model.h"
 #include "runtime/local_joints.h"
+#include "runtime/posed_body.h"
 
 #include <gtest/gtest.h>
 
@@ -23,8 +24,11 @@
 namespace bendy::retarget_test {
 namespace {
 
+using test::angle_of;
 using test::HumanModel;
 using test::HumanSpec;
+using test::kDirections;
+using test::made;
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 const std::vector<std::pair<std::string, std::string>> kLimbs{
@@ -32,76 +36,11 @@ const std::vector<std::pair<std::string, std::string>> kLimbs{
     {"rightForeArm", "rightHand"}, {"leftUpLeg", "leftLeg"},    {"leftLeg", "leftFoot"},
     {"rightUpLeg", "rightLeg"},    {"rightLeg", "rightFoot"}};
 
-double angle_of(const glm::dquat& a, const glm::dquat& b) {
-    const glm::dquat d = glm::conjugate(a) * b;
-    return 2.0 * std::atan2(std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z), std::abs(d.w));
-}
-
 /// A human and a pose of it.
-class Human {
+class Human : public test::PosedBody<HumanModel> {
 public:
-    explicit Human(const HumanSpec& spec)
-        : spec_(spec), human_(spec), model_(human_.file()), pose_(*model_), rest_(*model_) {}
-
-    [[nodiscard]] const Model& model() const { return *model_; }
-    Pose& pose() { return pose_; }
-    [[nodiscard]] std::uint32_t joint(const std::string& name) const { return human_.joint(name); }
-
-    /// In axes of the body, as all places and turns.
-    glm::dvec3 place(const std::string& name) { return back() * glm::dvec3(pose_.model_space()[joint(name)][3]); }
-    glm::dvec3 way(const std::string& from, const std::string& to) { return glm::normalize(place(to) - place(from)); }
-    /// Since rest.
-    glm::dquat turn(const std::string& name) {
-        const glm::dmat3 now(pose_.model_space()[joint(name)]);
-        const glm::dmat3 rest(rest_.model_space()[joint(name)]);
-        return back() * glm::normalize(glm::quat_cast(now * glm::inverse(rest))) * glm::conjugate(back());
-    }
-    /// Turns a joint about an axis of the body, with all below it.
-    void turn_by(const std::string& name, const glm::dvec3& axis, double degrees) {
-        const glm::dmat3 parent(pose_.model_space()[model_->parents()[joint(name)]]);
-        const glm::dvec3 own = glm::normalize(glm::inverse(parent) * (glm::conjugate(back()) * axis));
-        const glm::dquat turn = glm::angleAxis(degrees * M_PI / 180.0, own);
-        test::local_of(pose_, joint(name))->rotation =
-            glm::quat(glm::normalize(turn * glm::dquat(pose_.local(joint(name)).rotation)));
-    }
-    [[nodiscard]] glm::dvec3 to_model(const glm::dvec3& place) const { return glm::conjugate(back()) * place; }
-    /// Gives a joint the orientation that it has at rest.
-    void level(const std::string& name) {
-        const glm::dmat3 parent(pose_.model_space()[model_->parents()[joint(name)]]);
-        const glm::dmat3 rest(rest_.model_space()[joint(name)]);
-        test::local_of(pose_, joint(name))->rotation =
-            glm::quat(glm::normalize(glm::conjugate(glm::quat_cast(parent)) * glm::quat_cast(rest)));
-    }
-    void pose_at_random(unsigned seed, double size) {
-        std::mt19937 random(seed);
-        std::normal_distribution<double> number;
-        pose_.set_rest();
-        for (const JointRole& role : model_->roles()) {
-            const glm::dquat turn =
-                glm::normalize(glm::dquat(1.0, size * number(random), size * number(random), size * number(random)));
-            test::local_of(pose_, role.joint)->rotation =
-                glm::quat(turn * glm::dquat(pose_.local(role.joint).rotation));
-        }
-        test::local_of(pose_, joint("hips"))->translation += glm::vec3(0.1, 0.05, -0.2);
-    }
-
-private:
-    [[nodiscard]] glm::dquat back() const { return glm::angleAxis(-spec_.facing * M_PI / 180.0, glm::dvec3(0, 1, 0)); }
-
-    HumanSpec spec_;
-    HumanModel human_;
-    test::Owned model_;
-    Pose pose_, rest_;
+    explicit Human(const HumanSpec& spec) : PosedBody(HumanModel(spec), spec.facing) {}
 };
-
-Retarget made(const Human& source, const Human& target, const RetargetOptions& options = {}) {
-    auto retarget = Retarget::make(source.model(), target.model(), options);
-    EXPECT_TRUE(retarget) << (retarget ? "" : error_text(retarget.error()));
-    return *std::move(retarget);
-}
-
-/// Only the joints' turns and the hips' travel.
-constexpr RetargetOptions kDirections{RestPoses::measured, false, false};
 
 double worst_direction(Human& source, Human& target) {
     double worst = 0.0;
@@ -412,7 +351,7 @@ TEST(Retarget, AForearmThatTurnsRightRoundDoesNotJumpAtItsLimits) {
     Retarget retarget = made(source, target, {RestPoses::measured, true, false});
     RetargetState state;
     double step = 0.0;
-    glm::dquat last;
+    glm::dquat last(1, 0, 0, 0);
     for (int degrees = 0; degrees <= 360; degrees += 5) {
         source.pose().set_rest();
         source.turn_by("leftForeArm", glm::dvec3(1, 0, 0), degrees);
