@@ -52,8 +52,8 @@ std::string unknown_option(const CLI::App& command, const std::string& word) {
     std::vector<std::string_view> bare;  // the dashes, which all have, would make short ones alike
     bare.reserve(options.size());
     for (const std::string& option : options) bare.push_back(std::string_view(option).substr(2));
-    const std::string near(bendy::nearest_name(bare, name.substr(std::min(name.find_first_not_of('-'), name.size()))));
-    return "there is no option " + name + (near.empty() ? "" : "; did you mean \"--" + near + "\"?");
+    const std::string meant(bendy::nearest_name(bare, name.substr(std::min(name.find_first_not_of('-'), name.size()))));
+    return "there is no option " + name + (meant.empty() ? "" : "; did you mean \"--" + meant + "\"?");
 }
 
 /// The words that no option or argument consumed, in order.

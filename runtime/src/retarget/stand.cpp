@@ -93,10 +93,10 @@ Standing stand(const RetargetPlan& plan, const FootPlan& plan_of_foot, PoseState
     toes.weight = contact.toes;
     // Who lies or sits may be built so differently that a foot cannot be where it would be: it keeps its direction
     // then, but does not sink into the ground. Legs of animals differ more: a horse's upper arm is short and slanted.
-    const double near = plan.is_human ? 0.12 : 0.3, far = plan.is_human ? 0.3 : 0.6;  // leg lengths
+    const double kept = plan.is_human ? 0.12 : 0.3, lost = plan.is_human ? 0.3 : 0.6;  // leg lengths
     glm::dvec3 off = standing.ankle - foot.ankle;
     off -= std::max(0.0, glm::dot(off, plan.up)) * plan.up;
-    const double share = eased(glm::length(off) / plan.leg, near, far);
+    const double share = eased(glm::length(off) / plan.leg, kept, lost);
     return {glm::mix(foot.ankle, standing.ankle, share), share * standing.weight};
 }
 

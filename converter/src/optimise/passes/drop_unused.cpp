@@ -18,7 +18,7 @@
 namespace bendy::converter {
 namespace {
 
-/// What the materials of a mesh read.
+/// The streams that the materials of a mesh read.
 struct Readers {
     std::set<std::uint32_t> coords;  ///< set numbers
     bool all_coords = false;

@@ -12,11 +12,12 @@
 namespace bendy::converter {
 
 /// Finds the roles of a scene that has none: those of its VRM humanoid; otherwise those of a human (find_body), of a
-/// four-legged animal, or of a bird. Leaves them empty if the joints do not have the shape of such a body: a wrong role
-/// would do more harm than none.
+/// four-legged animal, or of a bird. Finds none if the joints do not have the shape of such a body: a wrong role does
+/// more harm than a missing one.
 ///
-/// Of several characters in a scene, one gets the roles, and a warning names them all.
-/// \param hips  of the one that gets them, also if another one has roles; kNone: the first, or who has them
+/// If a scene has several characters, one of them gets the roles, and a warning names all.
+/// \param hips  those of the character that gets the roles, even if another one has some; kNone: the character that
+///              has roles, or else the first
 #ifdef BENDY_AUTO_RIG
 void find_roles(Scene& scene, std::uint32_t hips, Report& report);
 #else

@@ -24,10 +24,10 @@ struct Claims {
 /// weight that does not fit the skeleton; the scene is then unchanged.
 void attach_rig(Scene& scene, const Rig& rig, const JointIndex& index, Claims& claims, Report& report);
 
-/// Gives joints the roles that the rig says; other joints keep theirs, unless the rig gives them to somebody else.
+/// Gives joints the roles that the rig names; other joints keep theirs, unless the rig gives the role to another joint.
 /// Fails at the JSON path of a joint that does not exist or is named twice; the scene is then unchanged.
 void attach_roles(Scene& scene, const Rig& rig, const JointIndex& index);
-/// The joint that the rig calls the hips; kNone if it does not say or there is no such joint.
+/// Returns the joint that the rig names as the hips; kNone if it names none, or if there is no such joint.
 std::uint32_t find_hips(const Rig& rig, const JointIndex& index);
 
 /// Resolves the joints of a chain. Fails at its JSON path if a joint does not exist, the start is not above the

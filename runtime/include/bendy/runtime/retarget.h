@@ -44,7 +44,7 @@ struct RetargetOptions {
     bool plants_feet = true;
 };
 
-/// What a body stands on, as its roles say. Poses go from one body to another of the same kind.
+/// The legs that a body stands on, by its roles. Poses can be retargeted between bodies of the same kind.
 enum class BodyKind : std::uint8_t {
     human,
     four_legs,  ///< an animal with hind legs and front legs
