@@ -213,6 +213,33 @@ TEST(Ik, OutOfReachPointsAtTheTarget) {
     }
 }
 
+TEST(Ik, OutOfReachComesAsNearAsTheLimitsAllow) {
+    test::ModelSpec spec = rope(2, 0.0);
+    spec.joints[0].constraints = {hinge(-30.0, 30.0)};
+    spec.joints[1].constraints = {hinge(0.0, 120.0)};
+    const Owned model(build_file(spec));
+    for (const glm::dvec2 place : {glm::dvec2(0.5, 2.2), glm::dvec2(-1.0, 2.0), glm::dvec2(1.9, -1.0)}) {
+        double nearest = kInf;
+        for (double first = -30.0; first <= 30.0; first += 0.5) {
+            for (double second = 0.0; second <= 120.0; second += 0.5) {
+                const double a = first * M_PI / 180.0, b = a + second * M_PI / 180.0;
+                const glm::dvec2 tip(std::cos(a) + std::cos(b), std::sin(a) + std::sin(b));
+                nearest = std::min(nearest, glm::length(tip - place));
+            }
+        }
+        for (const Solver solver :
+             {Solver::any, Solver::ccd, Solver::fabrik, Solver::two_bone, Solver::least_squares}) {
+            Pose pose(*model);
+            ReachOptions options;
+            options.solver = solver;
+            const ReachResult result = *reach(pose, model->chain("0"), glm::vec3(0.0, place), options);
+            EXPECT_EQ(result.status, ReachStatus::out_of_reach);
+            EXPECT_NEAR(result.distance, nearest, 4e-3) << static_cast<int>(solver);
+            EXPECT_LE(worst_violation(*model, pose), 1e-5);
+        }
+    }
+}
+
 TEST(Ik, PullArrivesOverSeveralFramesAndComesNearerInEach) {
     test::ModelSpec spec = rope(3);
     spec.chains[0].solver = static_cast<std::uint8_t>(Solver::pull);

@@ -245,10 +245,17 @@ private:
         return iterations;
     }
 
-    /// If a solver stops short of a target within reach, least squares continues from there.
+    /// If a solver stops short of what the chain's length allows, least squares continues from there.
     std::uint32_t finish(std::uint32_t iterations) {
-        if (problem_.is_out_of_reach || problem_.is_reached()) return iterations;
+        if (problem_.is_out_of_reach ? is_stretched_out() : problem_.is_reached()) return iterations;
         return iterations + solve_least_squares(problem_);
+    }
+
+    /// Returns true if the tip is as near to a target out of reach as it can be. Limits may hold a straight chain away
+    /// from the target, where a bent one comes nearer.
+    [[nodiscard]] bool is_stretched_out() const {
+        const double beyond = glm::length(problem_.target - problem_.origin) - std::max(problem_.reach, longest_);
+        return glm::length(problem_.target - problem_.tip) <= beyond + problem_.tolerance;
     }
 
     /// If a joint scales its axes unevenly, the bones below it change length as they turn, and the problem is only
