@@ -4,6 +4,7 @@
 #include "sample_times.h"
 
 #include <bendy/motion/retarget_clips.h>
+#include <bendy/runtime/constrain.h>
 #include <bendy/runtime/curve.h>
 #include <bendy/runtime/sample.h>
 
@@ -24,6 +25,7 @@ constexpr std::size_t kNumbers = 10;  // of a joint
 constexpr double kStretched = 0.01;   // of a joint's distance from its parent, and of its scale
 constexpr double kUneven = 0.002;     // radians: more samples are made where a joint is farther off halfway between two
 constexpr unsigned kHalvings = 3;     // of the time between two samples
+constexpr double kOutside = 2e-5;     // radians: more samples are made where a joint is farther outside its limits
 
 bool are_same(const JointTransform& a, const JointTransform& b) {
     return a.rotation == b.rotation && a.translation == b.translation && a.scale == b.scale;
@@ -66,10 +68,10 @@ std::array<const Curve*, kContacts> contact_curves(const Clip& clip) {
 
 class Following {
 public:
-    Following(Retarget& retarget, const Clip& clip, double most_turned)
+    Following(Retarget& retarget, const Clip& clip, const RetargetOptions& options)
         : retarget_(retarget),
           clip_(clip),
-          most_turned_(most_turned),
+          options_(options),
           source_(retarget.source()),
           target_(retarget.target()),
           curves_(contact_curves(clip)) {
@@ -140,8 +142,10 @@ private:
             auto end = between ? sample_at(to, after) : std::nullopt;
             if (!end) return false;
             const bool has_room = half > from && half < to && times_.size() < most_;
-            if (next.back().halvings > 0 && has_room && !is_even(*between, *end)) {
-                next.push_back({half, --next.back().halvings});
+            const unsigned halvings = next.back().halvings;
+            if (has_room && ((halvings > 0 && !is_even(*between, *end)) || leaves_limits(*between, *end))) {
+                next.back().halvings = halvings > 0 ? halvings - 1 : 0;
+                next.push_back({half, next.back().halvings});
                 continue;
             }
             between_.push_back(std::move(between->frame));
@@ -156,12 +160,31 @@ private:
     [[nodiscard]] bool is_even(const Sample& between, const Sample& end) const {
         for (std::uint32_t joint = 0; joint < between.frame.size(); ++joint) {
             if (source_of_[joint] != kNone) continue;
-            const glm::quat &a = frames_.back()[joint].rotation, &b = end.frame[joint].rotation;
-            const glm::quat middle = glm::normalize(glm::dot(a, b) < 0.0f ? a - b : a + b);
-            const double half = 1.0 - std::abs(glm::dot(middle, between.frame[joint].rotation));
+            const double half = 1.0 - std::abs(glm::dot(halfway(joint, end), between.frame[joint].rotation));
             if (half > 0.125 * kUneven * kUneven) return false;
         }
         return true;
+    }
+
+    /// Returns true if what lies halfway from the last sample to another one violates a constraint, and Retarget does
+    /// not. A joint that jumps from one end of its range to the other does, however near the samples are.
+    [[nodiscard]] bool leaves_limits(const Sample& between, const Sample& end) const {
+        if (!options_.obey_constraints) return false;
+        const Model& model = target_.model();
+        return std::any_of(model.constraints().begin(), model.constraints().end(), [&](const Constraint& limit) {
+            if (model.constraint(limit.joint) != &limit || source_of_[limit.joint] != kNone) return false;
+            const auto outside = [&](const glm::quat& local) {
+                const glm::quat& rest = model.joints()[limit.joint].rest.rotation;
+                return violation(limit, to_constraint_space(limit, rest, local));
+            };
+            return outside(halfway(limit.joint, end)) > outside(between.frame[limit.joint].rotation) + kOutside;
+        });
+    }
+
+    /// A joint's rotation in the middle between the last sample and another one.
+    [[nodiscard]] glm::quat halfway(std::uint32_t joint, const Sample& end) const {
+        const glm::quat &a = frames_.back()[joint].rotation, &b = end.frame[joint].rotation;
+        return glm::normalize(glm::dot(a, b) < 0.0f ? a - b : a + b);
     }
 
     /// Then feet stand at the beginning as at the end, where they have come from.
@@ -293,6 +316,8 @@ private:
 
     void make_tracks(const std::vector<std::uint32_t>& sampled_meshes) {
         const auto joints = target_.model().joints();
+        const bool is_free = !options_.obey_constraints && !options_.plants_feet;
+        const double turned = is_free ? kMostTurnedFree : kMostTurned;
         const double moved = kMostMoved * double{retarget_.leg()};
         target_.set_rest();
         const std::vector<glm::mat4> rests(target_.model_space().begin(), target_.model_space().end());
@@ -302,12 +327,9 @@ private:
                 continue;
             }
             const JointTransform& rest = joints[joint].rest;
-            const glm::quat& turned = rest.rotation;
-            add_track(joint, TrackPath::rotation, std::array{turned.x, turned.y, turned.z, turned.w}, most_turned_,
-                      [&](const JointTransform& now) {
-                          const glm::quat& q = now.rotation;
-                          return std::array{q.x, q.y, q.z, q.w};
-                      });
+            const auto four = [](const glm::quat& q) { return std::array{q.x, q.y, q.z, q.w}; };
+            add_track(joint, TrackPath::rotation, four(rest.rotation), turned,
+                      [&](const JointTransform& now) { return four(now.rotation); });
             const auto three = [](const glm::vec3& v) { return std::array{v.x, v.y, v.z}; };
             const double unit = joints[joint].parent == kNone ? 1.0 : unit_of(rests[joints[joint].parent]);
             add_track(joint, TrackPath::translation, three(rest.translation), moved / unit,
@@ -426,7 +448,7 @@ private:
 
     Retarget& retarget_;
     const Clip& clip_;
-    double most_turned_;  // radians
+    RetargetOptions options_;
     Pose source_, target_;
     std::array<const Curve*, kContacts> curves_;
     std::vector<float> times_;
@@ -442,9 +464,9 @@ private:
 
 }  // namespace
 
-std::optional<Followed> follow(Retarget& retarget, const Clip& clip, double most_turned,
+std::optional<Followed> follow(Retarget& retarget, const Clip& clip, const RetargetOptions& options,
                                const std::vector<std::uint32_t>& sampled_meshes) {
-    return Following(retarget, clip, most_turned).run(sampled_meshes);
+    return Following(retarget, clip, options).run(sampled_meshes);
 }
 
 }  // namespace bendy::motion

@@ -44,9 +44,9 @@ struct Followed {
 };
 
 /// Plays the clip on the target. Nothing, if a number is not finite.
-/// \param most_turned     radians: by how much rotations may differ from Retarget's
+/// \param options         those of `retarget`
 /// \param sampled_meshes  meshes of the target whose weights become tracks
-std::optional<Followed> follow(Retarget& retarget, const Clip& clip, double most_turned,
+std::optional<Followed> follow(Retarget& retarget, const Clip& clip, const RetargetOptions& options,
                                const std::vector<std::uint32_t>& sampled_meshes);
 
 inline constexpr const char* kContactNames[kContacts] = {

@@ -99,7 +99,6 @@ public:
     }
 
     Result<Transfer, Problem> run(const std::vector<std::size_t>& clips) {
-        const bool is_free = !options_.retarget.obey_constraints && !options_.retarget.plants_feet;
         std::vector<std::size_t> useless;
         for (const std::size_t number : clips) {
             const Clip& clip = source_.clips()[number];
@@ -107,7 +106,7 @@ public:
                 useless.push_back(number);
                 continue;
             }
-            auto followed = follow(retarget_, clip, is_free ? kMostTurnedFree : kMostTurned, sampled_);
+            auto followed = follow(retarget_, clip, options_.retarget, sampled_);
             if (!followed) return Problem{"clip " + quoted(clip.name, number) + " has numbers that are not finite"};
             put(number, *std::move(followed));
         }

@@ -32,7 +32,7 @@ struct RetargetClips {
 /// are not finite.
 edit::Edited retarget_clips(Bytes file, Bytes other, const RetargetClips& options, edit::Log& log);
 
-inline constexpr double kMostTurned = 0.00009;  ///< radians
+inline constexpr double kMostTurned = 0.00004;  ///< radians
 inline constexpr double kMostTurnedFree =
     0.000004;                                 ///< without limits and planted feet, where keys of the source are exact
 inline constexpr double kMostMoved = 0.0001;  ///< of the length of the legs
