@@ -407,6 +407,7 @@ TEST_F(CCrowd, MemoryThatRunsOutIsAnErrorInEveryConstructor) {
     make_without_memory<RetargetStateHandle>([](bendy_error* e) { return bendy_retarget_state_new(e); });
     const ModelHandle human = open_copy(HumanModel(HumanSpec{}).file());
     const bendy_model* const h = human.get();
+    const PoseHandle first = new_pose(human);  // the model keeps what it makes for its first pose
     make_without_memory<RetargetHandle>([&](bendy_error* e) { return bendy_retarget_new(h, h, nullptr, e); });
 }
 #endif
