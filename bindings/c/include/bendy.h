@@ -864,7 +864,7 @@ typedef struct bendy_reach_options {
 
 typedef enum bendy_reach_status {
     BENDY_REACHED = 0,      /* the tip is at the target, within the tolerance */
-    BENDY_OUT_OF_REACH = 1, /* the target is farther away than the chain is long: the chain points at it */
+    BENDY_OUT_OF_REACH = 1, /* the target is farther away than the chain is long: it points there, within its limits */
     BENDY_NOT_REACHED = 2,  /* stopped at the nearest solution found; aim: the tip does not point at the target */
     BENDY_AIMED = 3         /* only aim: the tip's Z axis points at the target, at any distance */
 } bendy_reach_status;

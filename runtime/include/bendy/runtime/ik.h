@@ -48,7 +48,7 @@ struct ReachOptions {
 
 enum class ReachStatus : std::uint8_t {
     reached,       ///< the tip is at the target, within the tolerance
-    out_of_reach,  ///< the target is farther away than the chain is long: the chain points at it
+    out_of_reach,  ///< the target is farther away than the chain is long: it points there, within its limits
     not_reached,   ///< stopped at the nearest solution found; aim: the tip does not point at the target
     aimed,         ///< only aim: the tip's Z axis points at the target within the tolerance, at any distance
 };
