@@ -27,7 +27,7 @@ void attach_rig(Scene& scene, const Rig& rig, const JointIndex& index, Claims& c
 /// Gives joints the roles that the rig names; other joints keep theirs, unless the rig gives the role to another joint.
 /// Fails at the JSON path of a joint that does not exist or is named twice; the scene is then unchanged.
 void attach_roles(Scene& scene, const Rig& rig, const JointIndex& index);
-/// Returns the joint that the rig names as the hips; kNone if it names none, or if there is no such joint.
+/// Returns the hips, if the rig names them and the scene has that joint; otherwise kNone.
 std::uint32_t find_hips(const Rig& rig, const JointIndex& index);
 
 /// Resolves the joints of a chain. Fails at its JSON path if a joint does not exist, the start is not above the
