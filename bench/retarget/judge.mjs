@@ -18,12 +18,6 @@ const kGround = 0.16; // leg lengths
 const kShortly = 0.1; // seconds
 const kActs = 0.002; // radians outside a limit without which nobody can tell that it acts
 
-const sides = ['left', 'right'];
-const limbs = sides.flatMap((side) => [
-    { bones: ['UpperArm', 'LowerArm', 'Hand'].map((bone) => side + bone) },
-    { bones: ['UpperLeg', 'LowerLeg', 'Foot'].map((bone) => side + bone), foot: [`${side}Foot`, `${side}Toes`] },
-]);
-
 /** Adds up numbers. */
 class Sum {
     total = 0;
@@ -53,8 +47,8 @@ function play(rig, name) {
     return frames;
 }
 
-function twistOff(source, target, from, to, bone, axis, align) {
-    const off = from.turn(bone).invert().multiply(to.turn(bone)).multiply(align.clone().invert());
+function twistOff(from, to, axis, align) {
+    const off = from.clone().invert().multiply(to).multiply(align.clone().invert());
     return 2 * Math.abs(Math.atan2(off.x * axis.x + off.y * axis.y + off.z * axis.z, off.w));
 }
 
@@ -63,9 +57,7 @@ function judge(source, target, frames) {
     const sum = (name) => (sums[name] ??= new Sum());
     const count = Math.min(...Object.values(frames).map((list) => list.length));
     const leg = { source: source.leg, target: target.leg };
-    const last = [];
-    const low = new Map(); // when a leg was low last
-    const bends = ['leftLowerArm', 'rightLowerArm', 'leftLowerLeg', 'rightLowerLeg'].map((bone) => ({ bone, source: 0, target: 0 }));
+    const limbs = source.limbs.map(({ bones, foot }, n) => ({ from: bones, to: target.limbs[n].bones, foot, bend: { source: 0, target: 0 } }));
     for (let k = 0; k < count; ++k) {
         const [from, free, full, back] = [frames.source[k], frames.free[k], frames.full[k], frames.back[k]];
         const seconds = k / kRate;
@@ -74,18 +66,18 @@ function judge(source, target, frames) {
         sum('limited').add([...outside.values()].some((angle) => angle > kActs) ? 1 : 0);
         for (const node of target.limited) sum('violated').add(violationOf(node, full.local(node)), `${node.label} ${seconds.toFixed(2)}`);
         for (const limb of limbs) {
-            const isHeld = limb.bones.some((bone) => target.above(bone).some((node) => outside.get(node) > kActs)); // feet may be beside legs
-            if (limb.foot?.some((bone) => source.has(bone) && from.place(bone).y - source.rest.place(bone).y < kGround * leg.source)) low.set(limb, seconds);
-            const isFree = !isHeld && !(seconds - low.get(limb) < kShortly);
+            const isHeld = limb.to.some((bone) => target.above(bone).some((node) => outside.get(node) > kActs)); // feet may be beside legs
+            if (limb.foot?.some((bone) => source.has(bone) && from.place(bone).y - source.rest.place(bone).y < kGround * leg.source)) limb.low = seconds;
+            const isFree = !isHeld && !(seconds - limb.low < kShortly);
             sum('untouched').add(isFree ? 1 : 0);
-            limb.bones.slice(0, 2).forEach((bone, n) => {
-                const end = limb.bones[n + 1];
-                const restWay = { source: source.rest.way(bone, end), target: target.rest.way(bone, end) };
+            limb.to.slice(1, limb.from.length).forEach((end, n) => { // one may have its foot earlier
+                const [bone, own, ownEnd] = [limb.to[n], limb.from[n], limb.from[n + 1]];
+                const restWay = { source: source.rest.way(own, ownEnd), target: target.rest.way(bone, end) };
                 const align = swing(restWay.target, restWay.source);
                 const label = `${bone} ${seconds.toFixed(2)}`;
                 for (const [kind, to] of [['free', free], ['full', full]]) {
-                    const direction = from.way(bone, end).angleTo(to.way(bone, end)) * kDegrees;
-                    const twist = twistOff(source, target, from, to, bone, restWay.source, align) * kDegrees;
+                    const direction = from.way(own, ownEnd).angleTo(to.way(bone, end)) * kDegrees;
+                    const twist = twistOff(from.turn(own), to.turn(bone), restWay.source, align) * kDegrees;
                     sum(`${kind}Direction`).add(direction, label);
                     sum(`${kind}Twist`).add(Math.min(twist, 360 - twist), label);
                     if (kind === 'full' && isFree) {
@@ -93,29 +85,26 @@ function judge(source, target, frames) {
                         sum('untouchedTwist').add(Math.min(twist, 360 - twist), label);
                     }
                 }
-                if (isFree) sum('returned').add(angleBetween(from.turn(bone), back.turn(bone)) * kDegrees, label);
+                if (isFree) sum('returned').add(angleBetween(from.turn(own), back.turn(own)) * kDegrees, label);
             });
-            const end = limb.bones[2];
+            const end = limb.to.at(-1);
             sum(limb.foot ? 'footMissed' : 'handMissed').add((100 * full.place(end).distanceTo(free.place(end))) / leg.target, `${end} ${seconds.toFixed(2)}`);
-        }
-        sides.forEach((side, n) => {
-            const foot = `${side}Foot`;
-            const now = { from: from.place(foot).divideScalar(leg.source), to: full.place(foot).divideScalar(leg.target) };
-            const height = now.from.y - source.rest.place(foot).y / leg.source;
-            const flat = (a, b) => Math.hypot(a.x - b.x, a.z - b.z);
-            if (last[n]) {
-                const slide = flat(now.from, last[n].from);
+            if (limb.foot) {
+                const foot = limb.from.at(-1);
+                const now = { from: from.place(foot).divideScalar(leg.source), to: full.place(end).divideScalar(leg.target) };
+                const height = now.from.y - source.rest.place(foot).y / leg.source;
+                const flat = (a, b) => Math.hypot(a.x - b.x, a.z - b.z);
+                const slide = limb.last && flat(now.from, limb.last.from);
                 if (height < kLow && slide * kRate < kSlow) {
-                    const label = `${foot} ${seconds.toFixed(2)}`;
+                    const label = `${end} ${seconds.toFixed(2)}`;
                     sum('sourceSlide').add(100 * slide, label);
-                    sum('slide').add(100 * flat(now.to, last[n].to), label);
-                    sum('height').add(100 * Math.abs(now.to.y - target.rest.place(foot).y / leg.target - height), label);
+                    sum('slide').add(100 * flat(now.to, limb.last.to), label);
+                    sum('height').add(100 * Math.abs(now.to.y - target.rest.place(end).y / leg.target - height), label);
                 }
+                limb.last = now;
             }
-            last[n] = now;
-        });
-        for (const bend of bends) {
-            const now = { from: from.local(source.node(bend.bone)), to: full.local(target.node(bend.bone)) };
+            const { bend } = limb; // of a knee or elbow
+            const now = { from: from.local(source.node(limb.from[1])), to: full.local(target.node(limb.to[1])) };
             if (bend.last) {
                 bend.source = Math.max(bend.source, angleBetween(now.from, bend.last.from) * kDegrees);
                 const step = angleBetween(now.to, bend.last.to) * kDegrees;
@@ -124,8 +113,8 @@ function judge(source, target, frames) {
             bend.last = now;
         }
     }
-    const source_most = Math.max(1, ...bends.map((bend) => bend.source));
-    for (const bend of bends) sum('flip').add(bend.target / source_most, `${bend.bone} ${bend.at?.toFixed(2)}`);
+    const source_most = Math.max(1, ...limbs.map(({ bend }) => bend.source));
+    for (const { to, bend } of limbs) sum('flip').add(bend.target / source_most, `${to[1]} ${bend.at?.toFixed(2)}`);
     return sums;
 }
 

@@ -1,4 +1,4 @@
-// A humanoid in a glTF file, posed by three.js.
+// A body in a glTF file, posed by three.js.
 
 import fs from 'node:fs';
 import path from 'node:path';
@@ -33,12 +33,12 @@ export function nodesOnly(file) {
     return json;
 }
 
-/** Role to number of node, from BENDY_joint_role. */
+/** Role to number of node, from BENDY_joint_role; a joint of a chain has its place after the role. */
 function rolesIn(json) {
     const roles = new Map();
     json.nodes.forEach((node, number) => {
-        const role = node.extensions?.BENDY_joint_role?.role;
-        if (role !== undefined && !roles.has(role)) roles.set(role, number);
+        const { role, place } = node.extensions?.BENDY_joint_role ?? {};
+        if (role !== undefined) roles.set(place === undefined ? role : `${role} ${place}`, number);
     });
     return roles;
 }
@@ -77,6 +77,12 @@ function limitOf(limits = []) {
     return limits.find((limit) => limit.scope === 'allButIk') ?? limits.find((limit) => (limit.scope ?? 'everyPose') === 'everyPose');
 }
 
+// Joints from hip or shoulder to foot or hand; of a leg also those that may touch the ground.
+const humanLimbs = ['left', 'right'].flatMap((side) => [
+    { bones: ['UpperArm', 'LowerArm', 'Hand'].map((bone) => side + bone) },
+    { bones: ['UpperLeg', 'LowerLeg', 'Foot'].map((bone) => side + bone), foot: [`${side}Foot`, `${side}Toes`] },
+]);
+
 class Rig {
     constructor(gltf, nodes, roles, names) {
         Object.assign(this, { scene: gltf.scene, animations: gltf.animations, nodes, roles, names });
@@ -84,13 +90,39 @@ class Rig {
         this.limited = nodes.filter((node) => node?.limit);
         this.axes = new THREE.Quaternion();
         this.scene.updateMatrixWorld(true);
+        const isHuman = this.has('leftUpperLeg');
+        this.limbs = isHuman ? humanLimbs : this.chains();
         const rest = new Frame(this);
-        const up = snapped(rest.place('head').sub(rest.place('leftFoot').add(rest.place('rightFoot')).multiplyScalar(0.5)).normalize(), 35);
-        const across = rest.place('leftUpperLeg').sub(rest.place('rightUpperLeg')).add(rest.place('leftUpperArm')).sub(rest.place('rightUpperArm'));
+        const middle = (bones) => bones.reduce((sum, bone) => sum.add(rest.place(bone)), new THREE.Vector3()).divideScalar(bones.length);
+        const beginOf = (side) => middle(this.limbs.map((limb) => limb.bones[0]).filter((bone) => bone.startsWith(side)));
+        const legs = this.limbs.filter((limb) => limb.foot);
+        const top = middle(isHuman ? ['head'] : legs.map((leg) => leg.bones[0]));
+        const up = snapped(top.sub(middle(legs.map((leg) => leg.bones.at(-1)))).normalize(), 35);
+        const across = beginOf('left').sub(beginOf('right'));
         const left = snapped(across.addScaledVector(up, -up.dot(across)).normalize(), 20);
         this.axes.setFromRotationMatrix(new THREE.Matrix4().makeBasis(left, up, left.clone().cross(up))).invert();
         this.rest = new Frame(this);
-        this.leg = this.rest.place('leftUpperLeg').distanceTo(this.rest.place('leftLowerLeg')) + this.rest.place('leftLowerLeg').distanceTo(this.rest.place('leftFoot'));
+        if (!isHuman) this.divide();
+        const { bones } = this.limbs.find((limb) => limb.foot);
+        this.leg = bones.slice(1).reduce((sum, bone, n) => sum + this.rest.place(bones[n]).distanceTo(this.rest.place(bone)), 0);
+    }
+    /** The legs of an animal, whole. Exports have parents first, so joints of a chain are in order. */
+    chains() {
+        const legs = ['leftHindLeg', 'rightHindLeg', 'leftFrontLeg', 'rightFrontLeg'];
+        const bonesOf = (leg) => [...this.roles.keys()].filter((role) => role.startsWith(leg));
+        return legs.map((leg) => ({ bones: bonesOf(leg), foot: [] })).filter((leg) => leg.bones.length > 0);
+    }
+    /** Leaves of legs what is between hip or shoulder and foot, as decision 77 says where these are. */
+    divide() {
+        const height = (bone) => this.rest.place(bone).y;
+        const ground = Math.min(...this.limbs.flatMap((leg) => leg.bones.map(height)));
+        for (const leg of this.limbs) {
+            const ahead = this.rest.way(leg.bones[0], leg.bones[1]).z * (leg.bones[0].includes('Hind') ? -1 : 1);
+            if (leg.bones.length > 3 && ahead > 0.3) leg.bones.shift(); // a shoulder blade or pelvis
+            const low = leg.bones.findIndex((bone, n) => n > 1 && height(bone) - ground < 0.25 * (height(leg.bones[0]) - ground));
+            leg.foot = leg.bones.splice(low < 0 ? leg.bones.length - 1 : low);
+            leg.bones.push(leg.foot[0]);
+        }
     }
     has(role) { return this.roles.has(role); }
     node(role) { return this.nodes[this.roles.get(role)]; }

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Judges retargeting on characters of other makers, each to each.
 
-    bench/retarget/run.py --chars FOLDER... [--bendy PROGRAM] [--work FOLDER] [--from PART] [--to PART] [--json FILE]
+    bench/retarget/run.py --chars FOLDER... [--bendy PROGRAM] [--work FOLDER] [--from PART] [--to PART] [--kind KIND]
+        [--no-limits] [--json FILE]
 
-The folders have the files that bench/rigs.json lists, by source, commit, digest and licence. Each that has "clips" there is converted with --auto-rig; the clips
-that the list names are put on each other rig by `bendy edit --retarget`, as usual and without limits and planting, and from there
-back; `bendy export` writes all of it as glTF, and judge.mjs judges that with three.js. Prints tables; --json also writes the figures.
+The folders have the files that bench/rigs.json lists, by source, commit, digest and licence. Each that has "clips" there is
+converted with --auto-rig, or without limits; the clips that the list names are put on each other rig of its kind by
+`bendy edit --retarget`, as usual and without limits and planting, and from there back; `bendy export` writes all of it as glTF,
+and judge.mjs judges that with three.js. Prints tables; --json also writes the figures.
 """
 
 import argparse
@@ -27,8 +29,8 @@ SURFACE = ("--strip", "meshes", "--strip", "textures", "--strip", "materials")
 
 
 class Bench:
-    def __init__(self, bendy, folders, work):
-        self.bendy, self.folders, self.work = bendy, folders, work
+    def __init__(self, bendy, folders, work, rigging):
+        self.bendy, self.folders, self.work, self.rigging = bendy, folders, work, rigging
 
     def run(self, *arguments):
         result = subprocess.run([self.bendy, *map(str, arguments)], capture_output=True, text=True, check=False)
@@ -50,7 +52,7 @@ class Bench:
             sys.exit(f"{path}: its sha256 is {digest}, expected {rig['sha256']}")
         name = path.stem
         whole, target, source = (self.work / f"{name}.{kind}.bendy" for kind in ("whole", "target", "source"))
-        self.run("convert", "-q", "--auto-rig", path, "-o", whole)
+        self.run("convert", "-q", *self.rigging, path, "-o", whole)
         self.run("edit", "-q", whole, "-o", target, *SURFACE, "--strip", "clips")
         made = {"name": name, "rig": rig, "original": str(path), "target": target}
         if rig.get("clips"):
@@ -71,8 +73,9 @@ class Bench:
         for path in (full, free, back):
             path.unlink()
         held = dict(re.findall(r'retargeted clip "(.*?)":.*?limits acted in (\d+ of \d+) frame', said))
-        return [{"pair": f"{source['name']} > {target['name']}", "clip": clip, "source": source["original"], "roles": source["export"],
-                 "acted": held.get(clip, ""), "held_out": bool(source["rig"].get("held_out") or target["rig"].get("held_out")), **files}
+        return [{"pair": f"{source['name']} > {target['name']}", "kind": kind_of(target["rig"]), "clip": clip,
+                 "source": source["original"], "roles": source["export"], "acted": held.get(clip, ""),
+                 "held_out": bool(source["rig"].get("held_out") or target["rig"].get("held_out")), **files}
                 for clip in source["rig"]["clips"]]
 
     def beside_vrm(self, source, target):
@@ -108,6 +111,10 @@ class Bench:
         result = subprocess.run([self.bendy, "diff", rig["source"], again], capture_output=True, text=True, check=False)
         again.unlink()
         return [line for line in result.stdout.splitlines() if line.startswith(("+", "-", "~")) and "/CURV" not in line]
+
+
+def kind_of(rig):
+    return rig.get("kind", "human")
 
 
 def split_glb(data):
@@ -176,16 +183,20 @@ def main():
     parser.add_argument("--work", default=pathlib.Path("build/bench-retarget"), type=pathlib.Path)
     parser.add_argument("--from", dest="source", default="")
     parser.add_argument("--to", dest="target", default="")
+    parser.add_argument("--kind", choices=("human", "quadruped", "bird"))
+    parser.add_argument("--no-limits", action="store_true")
     parser.add_argument("--json", type=pathlib.Path)
     options = parser.parse_args()
     options.work.mkdir(parents=True, exist_ok=True)
-    bench = Bench(options.bendy.resolve(), [*options.chars, HERE.parent.parent / "examples"], options.work.resolve())
+    bench = Bench(options.bendy.resolve(), [*options.chars, HERE.parent.parent / "examples"], options.work.resolve(),
+                  () if options.no_limits else ("--auto-rig",))
     install(bench.work)
-    listed = [rig for rig in json.loads(RIGS.read_text(encoding="utf-8")) if "clips" in rig]
+    listed = [rig for rig in json.loads(RIGS.read_text(encoding="utf-8")) if "clips" in rig
+              and options.kind in (None, kind_of(rig))]
     with ThreadPoolExecutor(os.cpu_count()) as workers:
         rigs = list(workers.map(bench.prepare, listed))
         pairs = [(a, b) for a in rigs for b in rigs if "source" in a and a is not b and b["rig"].get("target", True)
-                 and options.source in a["name"] and options.target in b["name"]]
+                 and kind_of(a["rig"]) == kind_of(b["rig"]) and options.source in a["name"] and options.target in b["name"]]
         jobs = [job for made in workers.map(lambda pair: bench.retarget(*pair), pairs) for job in made]
         own = dict(zip([rig["name"] for rig in rigs if "source" in rig],
                        workers.map(bench.own, [rig for rig in rigs if "source" in rig])))
@@ -197,8 +208,9 @@ def main():
     print(f"{'':44} " + " ".join(f"{title:>9}" for title in COLUMNS))
     for name in dict.fromkeys(line["pair"] for line in lines):
         print(row(name, [line for line in lines if line["pair"] == name]))
-    print(row("held-out pairs", [line for line in lines if line["held_out"]]))
-    print(row("all", lines))
+    for kind in dict.fromkeys(line["kind"] for line in lines):
+        print(row(f"{kind}, held-out pairs", [line for line in lines if line["held_out"] and line["kind"] == kind]))
+        print(row(f"{kind}, all", [line for line in lines if line["kind"] == kind]))
     for line in failed:
         print(f"FAILED {line['pair']} {line['clip']}: {line['failed']}")
     for name, other in own.items():
