@@ -1,5 +1,3 @@
-#include "bodies.h"
-
 #include <bendy/runtime.h>
 
 #include <algorithm>
@@ -7,8 +5,10 @@
 #include <cstddef>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 // bendy_bench_retarget FILE...: how long a frame takes if the clips of each file are put on each file, of four kinds of
 // retargeting. All files need roles (spec/chunks/ROLE.md). run.py judges what comes out.
@@ -18,6 +18,25 @@ using namespace bendy;
 
 constexpr double kRate = 60.0;    // frames a second
 constexpr int kMostFrames = 600;  // of a clip
+
+/// Opens files; leaves out, with a line on stderr, those whose clips cannot be retargeted.
+/// \return nothing, after a line on stderr, if a file cannot be opened
+std::optional<std::vector<Model>> open_bodies(std::span<const char* const> paths) {
+    std::vector<Model> bodies;
+    for (const char* path : paths) {
+        const auto model = Model::open(path);
+        if (!model) {
+            std::fprintf(stderr, "%s: cannot be opened\n", path);
+            return std::nullopt;
+        }
+        if (const auto own = Retarget::make(*model, *model); !own) {
+            std::fprintf(stderr, "%s: %s\n", path, error_text(own.error()).c_str());
+            continue;
+        }
+        bodies.push_back(*model);
+    }
+    return bodies;
+}
 
 struct Mean {
     double total = 0.0;
@@ -57,7 +76,7 @@ void time_clips(const Model& from, const Model& to, const RetargetOptions& optio
 }  // namespace
 
 int main(int argc, char** argv) {
-    const auto bodies = bench::open_bodies(std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
+    const auto bodies = open_bodies(std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
     if (!bodies) return 1;
     const std::pair<const char*, RetargetOptions> kinds[] = {{"directions", {RestPoses::measured, false, false}},
                                                              {"limits", {RestPoses::measured, true, false}},
@@ -65,9 +84,9 @@ int main(int argc, char** argv) {
                                                              {"limits and feet", {RestPoses::measured, true, true}}};
     for (const auto& [name, options] : kinds) {
         Mean mean;
-        for (const auto& from : *bodies) {
-            for (const auto& to : *bodies) {
-                if (&from != &to) time_clips(from.model, to.model, options, mean);
+        for (const Model& from : *bodies) {
+            for (const Model& to : *bodies) {
+                if (&from != &to) time_clips(from, to, options, mean);
             }
         }
         std::printf("%-16s %7.2f us a frame, %zu frames\n", name, mean.total / static_cast<double>(mean.count),
