@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace bendy::converter::mesh_test {
 namespace {
@@ -239,6 +241,32 @@ TEST(GltfMesh, VerticesWithoutWeightFollowTheirFirstJoint) {
     EXPECT_EQ(import->meshes.at(0).bones, (std::vector<std::uint32_t>{3}));
     EXPECT_EQ(import->meshes.at(0).weights, (std::vector<float>{1}));
     EXPECT_EQ(import.warned("vertex without weights"), 1u);
+}
+
+TEST(GltfMesh, WeightsThatAreNanAreZero) {
+    const float nan = std::nanf("");
+    const Import import = make_skinned(4, {{{3, 1, 2, 0, 0, 2, 0, 0}, {nan, nan, nan, nan, nan, 0.5f, 0, 0}}}).import();
+    EXPECT_EQ(import->meshes.at(0).bones, (std::vector<std::uint32_t>{3, 2}));
+    EXPECT_EQ(import->meshes.at(0).weights, (std::vector<float>{1, 1}));
+    EXPECT_EQ(import.warned("NaN replaced by 0"), 5u);
+    EXPECT_EQ(import.warned("vertex without weights"), 1u);
+    const float infinity = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(make_skinned(2, {{{0, 1, 0, 0}, {infinity, 0, 0, 0}}}).import().place(),
+              "meshes[0].primitives[0].attributes.WEIGHTS_0");
+}
+
+TEST(GltfMesh, NormalsAndTangentsThatAreNanAreZero) {
+    const float nan = std::nanf("");
+    Gltf gltf;
+    gltf.add_mesh({{"POSITION", gltf.add_accessor<float>({0, 0, 0, 1, 0, 0}, "VEC3")},
+                   {"NORMAL", gltf.add_accessor<float>({0, 0, 1, nan, nan, nan}, "VEC3")},
+                   {"TANGENT", gltf.add_accessor<float>({1, 0, 0, 1, nan, nan, nan, -1}, "VEC4")}},
+                  {{"mode", 0}});
+    gltf.add_node({{"mesh", 0}});
+    const Import import = gltf.import();
+    EXPECT_EQ(import->meshes.at(0).normals, (std::vector<glm::vec3>{{0, 0, 1}, {0, 0, 0}}));
+    EXPECT_EQ(import->meshes.at(0).tangents, (std::vector<glm::vec4>{{1, 0, 0, 1}, {0, 0, 0, -1}}));
+    EXPECT_EQ(import.warned("NaN replaced by 0"), 6u);
 }
 
 TEST(GltfMesh, NegativeWeights) {

@@ -169,15 +169,36 @@ double normalised(double value, int component_type) {
     }
 }
 
-std::vector<float> read_floats(const Document& document, std::size_t index, const std::string& place) {
+namespace {
+
+/// All elements as floats; with `nans`, NaN is counted and becomes 0.
+std::vector<float> read_finite(const Document& document, std::size_t index, const std::string& place,
+                               std::uint64_t* nans) {
     const tinygltf::Accessor& accessor = document.model.accessors[index];
     return decode<float>(document, index, place, [&](double value, std::size_t element) {
+        if (nans != nullptr && std::isnan(value)) {
+            ++*nans;
+            return 0.0f;
+        }
         if (!std::isfinite(value)) {
             fail(place, at("accessors", index) + ", element " + std::to_string(element) + ": " +
                             (std::isnan(value) ? "NaN" : "infinity") + " is not a finite number");
         }
         return static_cast<float>(accessor.normalized ? normalised(value, accessor.componentType) : value);
     });
+}
+
+}  // namespace
+
+std::vector<float> read_floats(const Document& document, std::size_t index, const std::string& place) {
+    return read_finite(document, index, place, nullptr);
+}
+
+std::vector<float> read_floats_or_zero(const Document& document, std::size_t index, const std::string& place) {
+    std::uint64_t nans = 0;
+    std::vector<float> values = read_finite(document, index, place, &nans);
+    if (nans > 0) document.report.warn("NaN replaced by 0", place, nans);
+    return values;
 }
 
 std::vector<std::uint32_t> read_unsigned(const Document& document, std::size_t index, const std::string& place) {

@@ -25,6 +25,10 @@ double normalised(double value, int component_type);
 /// range; `place` names the reader in errors.
 std::vector<float> read_floats(const Document& document, std::size_t index, const std::string& place);
 
+/// The same, with 0 for NaN, which exporters write where they divide by the length of a vector or by a sum that is
+/// zero. Warns of it.
+std::vector<float> read_floats_or_zero(const Document& document, std::size_t index, const std::string& place);
+
 /// All elements as unsigned integers (never normalised), for indices and JOINTS. Fails on other component types, except
 /// floats with whole values, which old exporters write for JOINTS.
 std::vector<std::uint32_t> read_unsigned(const Document& document, std::size_t index, const std::string& place);

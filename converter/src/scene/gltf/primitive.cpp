@@ -68,8 +68,8 @@ public:
         Attribute positions = read_attribute("POSITION", 3, 3);
         count_ = positions.count;
         mesh.positions = as_vec3(positions.values);
-        if (has("NORMAL")) mesh.normals = as_vec3(read_attribute("NORMAL", 3, 3).values);
-        if (has("TANGENT")) mesh.tangents = as_vec4(read_attribute("TANGENT", 4, 4).values);
+        if (has("NORMAL")) mesh.normals = as_vec3(read_attribute("NORMAL", 3, 3, read_floats_or_zero).values);
+        if (has("TANGENT")) mesh.tangents = as_vec4(read_attribute("TANGENT", 4, 4, read_floats_or_zero).values);
         read_streams(mesh);
         if (skinned) read_influences(vertices);
         read_targets(mesh);
@@ -87,7 +87,9 @@ private:
     }
 
     /// Reads an attribute with `low` to `high` components and as many elements as POSITION.
-    Attribute read_attribute(const std::string& name, std::size_t low, std::size_t high) {
+    /// \param read_accessor  read_floats or read_floats_or_zero
+    Attribute read_attribute(const std::string& name, std::size_t low, std::size_t high,
+                             decltype(&read_floats) read_accessor = read_floats) {
         const std::string place = attribute_place(name);
         Attribute attribute;
         if (draco_ && draco_->attributes.count(name) > 0) {
@@ -103,7 +105,7 @@ private:
         attribute.components = component_count(accessor);
         attribute.count = accessor.count;
         check(attribute, low, high, place);
-        attribute.values = read_floats(document_, index, place);
+        attribute.values = read_accessor(document_, index, place);
         return attribute;
     }
 
@@ -184,7 +186,7 @@ private:
             const std::string weights_name = "WEIGHTS_" + std::to_string(set);
             if (!has(joints_name) || !has(weights_name)) break;
             bones.push_back(read_bones(joints_name));
-            weights.push_back(read_attribute(weights_name, 4, 4));
+            weights.push_back(read_attribute(weights_name, 4, 4, read_floats_or_zero));
         }
         report_loose_sets(bones.size());
         if (bones.empty()) return;
