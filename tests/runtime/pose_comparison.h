@@ -32,7 +32,8 @@ struct PoseErrors {
     static constexpr double kMostForSample = 4.0;
     static constexpr double kMostForUnpack = 8.0;
     static constexpr double kMostForBlends = 4.0;
-    static constexpr double kMostForDecoding = 2.0;
+    static constexpr double kMostForDecoding =
+        4.0;  // one for each rounding: before + weight * (minimum + step * integer)
     [[nodiscard]] bool are_small() const {
         return pose <= kMostForPose && palette <= kMostForPalette && sample <= kMostForSample &&
                unpack <= kMostForUnpack && mix <= kMostForBlends && add <= kMostForBlends &&
@@ -52,6 +53,7 @@ public:
         }
         for (const float angle : {0.0f, 0.3f, 1.5f, 3.0f}) {
             compare_samples(angle);
+            compare_timed_samples(angle);
             for (const std::uint32_t tracks : {1u, 3u, 4u, 5u, 8u}) compare_unpacking(angle, tracks);
         }
         compare_splines();
@@ -302,6 +304,47 @@ private:
             note_vector(vectors[2], 10, 7);
             for (const auto& [joint, number] : {std::pair{2, 4}, {5, 5}, {0, 7}, {11, 3}, {15, 0}})  // without a track
                 note(errors_.sample, local.at(std::size_t(joint), std::size_t(number)), -9.0, 1e-9);
+        }
+    }
+
+    /// A group of rotations and one of vectors, each lane at another moment between keys of its own; a lane without a
+    /// track.
+    void compare_timed_samples(float angle) {
+        constexpr std::size_t kFree = 6;  // the lane without a track
+        constexpr float kMoments[kBlockJoints]{0.0f, 0.125f, 0.7f, 1.0f, -0.5f, 1.5f, 0.3f, 0.9f};
+        std::vector<Floats> rotations(kBlockJoints), vectors(kBlockJoints);
+        for (Floats& keys : rotations) {
+            const glm::quat q = rotation();
+            const glm::quat next =
+                -glm::normalize(q * glm::angleAxis(angle * number(), glm::normalize(glm::vec3(1, number(), 0.5))));
+            keys = {q.x, q.y, q.z, q.w, next.x, next.y, next.z, next.w};
+        }
+        for (Floats& keys : vectors) {
+            for (std::size_t k = 0; k < 6; ++k) keys.push_back(number());
+        }
+        for (const bool is_rotation : {true, false}) {
+            TrackGroup group{{}, {}, kBlockJoints - 1, Blocks::place_of(0, is_rotation ? 0 : 7)};
+            Blocks local(kBlockJoints, -9.0f);
+            TimedBlock block{&group, {}, {}, {}, 2.0f, is_rotation, local.data()};
+            for (std::size_t k = 0; k < kBlockJoints; ++k) {
+                group.has_track[k] = k == kFree ? 0 : kAllBits;
+                block.keys[k] = (is_rotation ? rotations : vectors)[k].data();
+                block.left[k] = 2.0f - 0.5f * kMoments[k];
+                block.right[k] = block.left[k] + 0.5f;
+            }
+            kernels_.sample_timed(block);
+            for (std::size_t k = 0; k < kBlockJoints; ++k) {
+                const double u = std::clamp((2.0 - block.left[k]) / (double{block.right[k]} - block.left[k]), 0.0, 1.0);
+                const glm::dquat left = rotation_at(rotations[k].data()), right = rotation_at(&rotations[k][4]);
+                if (k != kFree && is_rotation)
+                    note_rotation(errors_.sample, local.rotation_of(k), u == 1.0 ? right : slerp(left, right, u));
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const double vector = (1.0 - u) * vectors[k][c] + u * vectors[k][3 + c];
+                    const bool is_set = k != kFree && !is_rotation;
+                    note(errors_.sample, local.at(k, 7 + c), is_set ? vector : -9.0, is_set ? 1.0 : 1e-9);
+                }
+                if (k == kFree) note(errors_.sample, local.at(k, 0), -9.0, 1e-9);
+            }
         }
     }
 

@@ -114,6 +114,79 @@ TEST(SampleKernels, AgreeWithEachTrackByItself) {
     EXPECT_TRUE(set_kernel(before));
 }
 
+/// Two clips whose tracks have times of their own: from 2 to 40 keys in a second, unevenly, the first of them at 0.
+test::ModelSpec timed() {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> number(-1.0f, 1.0f);
+    test::ModelSpec spec;
+    spec.joints.resize(kJoints);
+    for (std::uint32_t joint = 1; joint < kJoints; ++joint) spec.joints[joint].parent = joint - 1;
+    for (std::uint32_t clip = 0; clip < 2; ++clip) {
+        std::vector<float> times;
+        std::vector<float> values;
+        std::vector<TrackRecord> tracks;
+        for (std::uint32_t joint = 0; joint < kJoints; ++joint) {
+            for (const TrackPath path : {TrackPath::translation, TrackPath::rotation}) {
+                if (path == TrackPath::translation && joint % 2 == 1) continue;
+                TrackRecord track;
+                track.target = joint;
+                track.path = static_cast<std::uint8_t>(path);
+                track.interpolation = static_cast<std::uint8_t>(Interpolation::linear);
+                track.components = path == TrackPath::rotation ? 4 : 3;
+                track.keys = 2 + (joint * 7 + clip) % 39;
+                track.first_time = static_cast<std::uint32_t>(times.size());
+                track.first_value = values.size();
+                tracks.push_back(track);
+                float seconds = 0.0f;
+                for (std::uint32_t key = 0; key < track.keys; ++key) {
+                    times.push_back(seconds);
+                    seconds += (1.1f + number(random)) / static_cast<float>(track.keys);
+                    const glm::quat q = glm::normalize(glm::quat(1.0f, number(random), number(random), number(random)));
+                    const float numbers[4]{q.x, q.y, q.z, q.w};
+                    values.insert(values.end(), numbers, numbers + track.components);
+                }
+            }
+        }
+        ClipRecord info;
+        info.end = 1.0f;
+        spec.more.push_back(
+            test::make_container(FourCC("CYCL"), {test::make_leaf(FourCC("CINF"), bytes_of(info)),
+                                                  test::make_leaf(FourCC("TRAK"), test::bytes_of_all(tracks)),
+                                                  test::make_leaf(FourCC("TIME"), test::bytes_of_all(times)),
+                                                  test::make_leaf(FourCC("KEYV"), test::bytes_of_all(values))}));
+    }
+    return spec;
+}
+
+TEST(SampleKernels, TracksWithTimesOfTheirOwn) {
+    const Kernel before = kernel();
+    const Owned model(test::build_file(timed()));
+    ASSERT_EQ(model->clips().size(), 2u);
+    for (const Kernel each : kernels()) {
+        ASSERT_TRUE(set_kernel(each));
+        SCOPED_TRACE(kernel_name(each));
+        Pose pose(*model);
+        const auto expect_sample = [&](const Clip& clip, float seconds, float tolerance) {
+            ASSERT_TRUE(sample(pose, &clip, seconds));
+            for (const TrackView& track : clip.tracks) expect_track(track, clip, seconds, pose, tolerance);
+        };
+        // The keys that the last sample found must not count: forwards by small and large steps, backwards, and from
+        // clip to clip.
+        for (const float step : {0.004f, 0.06f, 0.4f, -0.03f}) {
+            for (float at = step > 0.0f ? -0.1f : 1.3f; at > -0.2f && at < 1.4f; at += step) {
+                expect_sample(model->clips()[0], at, 12.0f * 0x1p-24f);
+                if (step == 0.06f) expect_sample(model->clips()[1], 1.2f - at, 12.0f * 0x1p-24f);
+            }
+        }
+        const TrackView& track = model->clips()[0].tracks[3];
+        for (const float seconds : track.times) {
+            ASSERT_TRUE(sample(pose, &model->clips()[0], seconds));
+            expect_track(track, model->clips()[0], seconds, pose, 0.0f);
+        }
+    }
+    EXPECT_TRUE(set_kernel(before));
+}
+
 TEST(SampleKernels, KeysComeOutExactly) {
     const Kernel before = kernel();
     const Owned model(test::build_file(animated(0.5f)));

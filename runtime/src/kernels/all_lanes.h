@@ -27,6 +27,7 @@ constexpr KernelTable kTable{
     .poses = poses_lanes,
     .palettes = palettes_lanes,
     .sample = sample_lanes,
+    .sample_timed = sample_timed_lanes,
     .sample_cubic = sample_cubic_lanes,
     .unpack = unpack_lanes,
     .decode_boxed = decode_boxed_lanes,

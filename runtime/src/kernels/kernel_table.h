@@ -24,10 +24,11 @@ struct KernelTable {
     void (*poses)(const PosesBlock& block);      ///< the same bits as `pose`
     void (*palettes)(const PalettesBlock& block);    ///< the same bits as `palette`
     void (*sample)(const SampleBlock& block);        ///< slerp of rotations along the shorter arc; lerp of vectors
+    void (*sample_timed)(const TimedBlock& block);   ///< the same, each lane between its own keys
     void (*sample_cubic)(const SampleBlock& block);  ///< cubic Hermite splines, rotations normalised
     /// Each component of a rotation is within 2e-6.
     void (*unpack)(const UnpackBlock& block);
-    /// These: within two units in the last place of the largest number that goes into one.
+    /// These: within four units in the last place of the largest number that goes into one.
     void (*decode_boxed)(const BoxedBlock& block);
     void (*decode_directions)(const DirectionsBlock& block);
     void (*displace)(const DisplaceBlock& block);

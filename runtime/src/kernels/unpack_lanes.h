@@ -97,7 +97,7 @@ inline float least_of(Lanes lanes) {
 
 /// Interpolates between rotation vectors, relative to rest, for the group's lanes from `first` on.
 inline void unpack_rotations(const UnpackGroup& group, std::size_t first, const Lanes* v, const Lanes* w,
-                             const Moment& moment, const UnpackPart* parts, float* local) {
+                             const Moment<float>& moment, const UnpackPart* parts, float* local) {
     const Lanes of_v = half_turn_square(v);
     const Lanes of_w = half_turn_square(w);
     const bool is_near = -least_of(lesser(-of_v, -of_w)) <= kNearHalfTurnSquare;
@@ -126,7 +126,7 @@ inline void unpack_vectors(const UnpackGroup& group, std::size_t first, const La
 
 template <bool is_near_end>
 inline void unpack_groups(const UnpackBlock& block) {
-    const Moment moment(block.fraction);
+    const Moment<float> moment(block.fraction);
     const UnpackWindows* windows = block.windows;
     const UnpackPart* parts = block.parts;
     for (std::size_t number = 0; number < block.group_count; ++number) {

@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kBlockFloats = 10 * kBlockJoints;
 
 inline constexpr std::uint32_t kAllBits = 0xffff'ffff;  ///< of a mask
 
-/// Tracks on the same time line that animate one property of the joints of a block, a lane for each joint.
+/// Tracks that animate one property of the joints of a block, a lane for each joint.
 struct TrackGroup {
     const float* keys[kBlockJoints];        ///< of a lane without a track, those of another one; see SampleBlock
     std::uint32_t has_track[kBlockJoints];  ///< kAllBits, or 0
@@ -48,6 +48,17 @@ struct SampleBlock {
     float fraction;  ///< 0 to 1
     float seconds;   ///< from `left` to the next key; for cubic tracks only
     float* local;    ///< blocks of joints
+};
+
+/// Tracks with times of their own, at one moment.
+struct TimedBlock {
+    const TrackGroup* group;          ///< but for its keys
+    const float* keys[kBlockJoints];  ///< of each lane, the left key, which the right one follows
+    float left[kBlockJoints];         ///< their times
+    float right[kBlockJoints];
+    float seconds;  ///< before `left`, the left key counts; after `right`, the right one
+    bool is_rotation;
+    float* local;  ///< blocks of joints
 };
 
 /// Blends transforms into others, joint by joint.

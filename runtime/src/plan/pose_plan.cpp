@@ -12,6 +12,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <unordered_map>
 
 namespace bendy {
 namespace {
@@ -155,9 +156,61 @@ void add_track(const TrackView& track, SampleGroups& groups) {
     groups.tracks.push_back({track.values.data(), place_of(track.target, track.path)});
 }
 
+constexpr std::uint32_t kLeast = 3;  ///< tracks that are worth a group of their own
+
+void add_timed(const TrackGroup& group, const SampleLine& line, bool is_rotation, TimedGroup& to) {
+    to.is_rotation = is_rotation;
+    to.tracks.place = group.place;
+    for (std::uint32_t lane = 0; lane < kBlockJoints; ++lane) {
+        if (group.has_track[lane] == 0) continue;
+        to.tracks.keys[lane] = group.keys[lane];
+        to.tracks.has_track[lane] = kAllBits;
+        ++to.tracks.count;
+        to.times[lane] = line.clock->times.data();
+        to.keys[lane] = line.clock->keys;
+    }
+}
+
+void fill_lanes(TimedGroup& group) {
+    const auto* const has_track = group.tracks.has_track;
+    const auto first = std::find(has_track, has_track + kBlockJoints, kAllBits) - has_track;
+    for (std::uint32_t lane = 0; lane < kBlockJoints; ++lane) {
+        if (has_track[lane] != 0) continue;
+        group.tracks.keys[lane] = group.tracks.keys[first];
+        group.times[lane] = group.times[first];
+        group.keys[lane] = group.keys[first];
+    }
+}
+
+/// Joins small groups of a block with different times.
+void join_small(SamplePlan& plan) {
+    const auto is_small = [](const TrackGroup& group) { return group.count < kLeast; };
+    const auto for_all = [&](const auto& visit) {
+        for (SampleLine& line : plan.lines) {
+            if (line.clock->times.empty()) continue;
+            visit(line, line.linear.rotations, true);
+            visit(line, line.linear.vectors, false);
+        }
+    };
+    std::unordered_map<std::uint32_t, std::uint32_t> counts;  // of small groups, by place
+    for_all([&](const SampleLine&, const std::vector<TrackGroup>& groups, bool) {
+        for (const TrackGroup& group : groups) counts[group.place] += is_small(group) ? 1 : 0;
+    });
+    std::unordered_map<std::uint32_t, std::size_t> numbers;  // of timed groups, by place
+    for_all([&](const SampleLine& line, std::vector<TrackGroup>& groups, bool is_rotation) {
+        std::erase_if(groups, [&](const TrackGroup& group) {
+            if (!is_small(group) || counts[group.place] < 2) return false;
+            const auto [found, is_new] = numbers.try_emplace(group.place, plan.timed.size());
+            if (is_new) plan.timed.emplace_back();
+            add_timed(group, line, is_rotation, plan.timed[found->second]);
+            return true;
+        });
+    });
+    for (TimedGroup& group : plan.timed) fill_lanes(group);
+}
+
 /// Turns small groups of vectors into single tracks.
 void split_small(SampleGroups& groups) {
-    constexpr std::uint32_t kLeast = 3;  // lanes that are worth a group
     for (const TrackGroup& group : groups.vectors) {
         if (group.count >= kLeast) continue;
         for (std::uint32_t lane = 0; lane < kBlockJoints; ++lane) {
@@ -216,7 +269,11 @@ void add_tracks(std::span<const TrackView> tracks, SamplePlan& plan, std::vector
             add_track(track, line.linear);
         }
     }
+    join_small(plan);
     for (SampleLine& line : plan.lines) split_small(line.linear);
+    std::erase_if(plan.lines, [](const SampleLine& line) {
+        return line.linear.is_empty() && line.cubic_tracks.empty() && line.others.empty();
+    });
 }
 
 SamplePlan make_sample_plan(const ClipView& clip, std::span<const JointTransform> rest) {
@@ -252,7 +309,10 @@ PosePlan make_pose_plan(const ObjectView& object, std::span<const Joint> joints)
     std::stable_sort(plan.order.begin(), plan.order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return depths[a] < depths[b]; });
     plan.clips.reserve(object.clips.size());
-    for (const ClipView& clip : object.clips) plan.clips.push_back(make_sample_plan(clip, rest));
+    for (const ClipView& clip : object.clips) {
+        plan.clips.push_back(make_sample_plan(clip, rest));
+        plan.most_timed = std::max(plan.most_timed, plan.clips.back().timed.size());
+    }
     plan.fits_floats = fits_floats(object, joints);
     return plan;
 }

@@ -7,6 +7,7 @@
 #include "blocks.h"
 #include "unpack_plan.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,7 +23,20 @@ struct SampleGroups {
     std::vector<TrackGroup> rotations;
     std::vector<TrackGroup> vectors;
     std::vector<VectorTrack> tracks;  ///< vectors that would leave most lanes of a group empty
+
+    [[nodiscard]] bool is_empty() const { return rotations.empty() && vectors.empty() && tracks.empty(); }
 };
+
+/// Linear tracks of a block of joints, each with times of its own. Lanes without a track have those of another one.
+struct TimedGroup {
+    TrackGroup tracks;
+    const float* times[kBlockJoints];
+    std::uint32_t keys[kBlockJoints];  ///< two or more
+    bool is_rotation;
+};
+
+/// The number of the left key of each lane of a TimedGroup.
+using TimedKeys = std::array<std::uint32_t, kBlockJoints>;
 
 /// The tracks of a clip that have the same times. Linear and cubic ones with two keys or more are grouped for the
 /// kernels; `others` are sampled one by one.
@@ -34,10 +48,11 @@ struct SampleLine {
     std::vector<const TrackView*> others;
 };
 
-/// The plan for a clip. About 13 bytes per track, 104 if it is the only one of its block of joints with its times.
+/// The plan for a clip. About 13 bytes per track; 26 if each has times of its own.
 struct SamplePlan {
     std::vector<JointBlock> start;  ///< the joints at rest, with the tracks that are constant; empty: PosePlan::rest
     std::vector<SampleLine> lines;
+    std::vector<TimedGroup> timed;
     UnpackPlan packed;  ///< for packed clips, which start at UnpackPlan::start
 };
 
@@ -50,6 +65,7 @@ struct PosePlan {
     std::vector<std::vector<PaletteMatrix>> inverse_bind;  ///< per mesh; empty if same_palette is another mesh
     std::vector<std::uint32_t> same_palette;  ///< per mesh: the first neighbouring mesh with the same palette
     std::vector<SamplePlan> clips;
+    std::size_t most_timed = 0;  ///< groups of a clip
     /// True if floats are accurate enough for joint matrices: no long chains, and no large offsets that cancel.
     bool fits_floats = false;
 

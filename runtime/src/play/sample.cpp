@@ -32,6 +32,45 @@ Interval timed_interval(std::span<const float> times, float seconds) {
     return {left, left + 1, (double{seconds} - times[left]) / length, length};
 }
 
+/// Returns the left keys of a group's tracks: find_key of each, but before the last key. The searches do not wait for
+/// one another.
+TimedKeys search_keys(const TimedGroup& group, float seconds) {
+    TimedKeys found{};
+    TimedKeys rest{};
+    std::copy_n(group.keys, kBlockJoints, rest.begin());
+    for (std::uint32_t most = *std::max_element(rest.begin(), rest.end()); most > 1; most -= most / 2) {
+        for (std::size_t lane = 0; lane < kBlockJoints; ++lane) {
+            const std::uint32_t half = rest[lane] / 2;
+            found[lane] += group.times[lane][found[lane] + half] <= seconds ? half : 0;
+            rest[lane] -= half;
+        }
+    }
+    for (std::size_t lane = 0; lane < kBlockJoints; ++lane) found[lane] = std::min(found[lane], group.keys[lane] - 2);
+    return found;
+}
+
+/// Sets them, given any; few steps lead from those of a moment shortly before.
+void find_keys(const TimedGroup& group, float seconds, TimedKeys& keys) {
+    std::uint32_t missed = 0;  // lanes whose key is too late
+    for (std::size_t lane = 0; lane < kBlockJoints; ++lane) {
+        keys[lane] = std::min(keys[lane], group.keys[lane] - 2);
+        const std::uint32_t is_late = group.times[lane][keys[lane]] > seconds ? 1 : 0;
+        missed += is_late & (keys[lane] > 0 ? 1u : 0u);
+    }
+    constexpr int kMostSteps = 4;
+    std::uint32_t steps = 1;  // of all lanes, in the last round
+    for (int round = 0; round < kMostSteps && steps > 0 && missed == 0; ++round) {
+        steps = 0;
+        for (std::size_t lane = 0; lane < kBlockJoints; ++lane) {
+            const std::uint32_t is_early = group.times[lane][keys[lane] + 1] <= seconds ? 1 : 0;
+            const std::uint32_t step = is_early & (keys[lane] + 2 < group.keys[lane] ? 1u : 0u);
+            keys[lane] += step;
+            steps += step;
+        }
+    }
+    if (missed + steps > 0) keys = search_keys(group, seconds);
+}
+
 Interval frame_interval(const TrackView& track, const Clip& clip, float seconds) {
     const double frame = (double{seconds} - clip.start) * clip.frame_rate;
     const double last = track.keys - 1.0;
@@ -160,6 +199,7 @@ public:
         state_.set_start(clip_.packed ? plan.packed.start : plan.start.empty() ? model_.pose_plan->rest : plan.start);
         sample_plays();
         for (const SampleLine& line : plan.lines) sample_line(line, kernels);
+        for (std::size_t k = 0; k < plan.timed.size(); ++k) sample_timed(plan.timed[k], state_.timed_keys[k], kernels);
         if (clip_.packed) unpack(plan.packed, seconds_, joints(), state_.local);
     }
 
@@ -191,7 +231,7 @@ private:
             block.seconds = static_cast<float>(at.seconds);
             kernels.sample_cubic(block);
         }
-        if (line.linear.rotations.empty() && line.linear.vectors.empty() && line.linear.tracks.empty()) return;
+        if (line.linear.is_empty()) return;
         SampleBlock block = block_of(line.linear, at);
         if (at.left + 1 == line.clock->keys) {  // at the last key: interpolate fully from the one before it
             block.left = at.left - 1;
@@ -211,6 +251,18 @@ private:
                 static_cast<float>(at.fraction),
                 0.0f,
                 &state_.local.front().rotation[0][0]};
+    }
+
+    void sample_timed(const TimedGroup& group, TimedKeys& keys, const KernelTable& kernels) const {
+        find_keys(group, seconds_, keys);
+        TimedBlock block{&group.tracks, {}, {}, {}, seconds_, group.is_rotation, &state_.local.front().rotation[0][0]};
+        const std::size_t width = group.is_rotation ? 4 : 3;
+        for (std::size_t lane = 0; lane < kBlockJoints; ++lane) {
+            block.keys[lane] = group.tracks.keys[lane] + width * keys[lane];
+            block.left[lane] = group.times[lane][keys[lane]];
+            block.right[lane] = group.times[lane][keys[lane] + 1];
+        }
+        kernels.sample_timed(block);
     }
 
     void sample_one(const TrackView& track, const Interval& at) const {

@@ -18,6 +18,7 @@ PoseState::PoseState(const Model& from)
     is_exact = !data->pose_plan->fits_floats;
     if (is_exact) exact_model_space.resize(data->joints.size());
     local.resize(data->pose_plan->rest.size());
+    timed_keys.resize(data->pose_plan->most_timed);
     model_space.resize(local.size() * JointBlock::kJoints);
     set_rest();
     refresh();

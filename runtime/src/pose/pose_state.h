@@ -90,6 +90,7 @@ struct alignas(64) PoseState {
     std::vector<JointMatrix> model_space;       ///< one per lane of `local`
     std::vector<glm::dmat4> exact_model_space;  ///< if is_exact
     std::vector<float> morph_weights;
+    std::vector<TimedKeys> timed_keys;  ///< of each SamplePlan::timed, those of the last sample: where to look first
     std::vector<ActiveTarget> active_targets;  ///< of the mesh that is being skinned; room for any mesh's targets
     std::vector<IkLink> ik_links;              ///< of the chain that reaches
     std::vector<PaletteMatrix> palette;        ///< of the mesh that is being skinned; never empty
