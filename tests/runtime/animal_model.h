@@ -25,7 +25,7 @@ struct AnimalSpec {
     bool has_toes = true;
     bool has_front = true;  ///< otherwise it is a bird without wings
     std::uint32_t spine = 3, neck = 2, tail = 4;
-    std::vector<ConstraintRecord> hocks{};
+    std::vector<ConstraintRecord> hocks{}, shoulders{}, elbows{};
 };
 
 /// An animal made of joints, in the order of the file, standing on the ground. leftHind0 is the hip, leftHind1 the
@@ -84,6 +84,8 @@ private:
         for (std::size_t k = 0; k <= bones.size(); ++k) {
             carrier = add(name + std::to_string(k), carrier, place, role, in_chain++);
             if (which == "Hind" && k == 2) spec.joints[carrier].constraints = animal_.hocks;
+            if (which == "Front" && k < 2)
+                spec.joints[carrier].constraints = k == 0 ? animal_.shoulders : animal_.elbows;
             if (k == bones.size()) break;
             const double lean = leans[k] * M_PI / 180.0;
             place += bones[k] * glm::dvec3(0, -std::cos(lean), std::sin(lean));

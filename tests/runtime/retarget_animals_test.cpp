@@ -169,6 +169,60 @@ TEST(RetargetAnimals, FourFeetMoveAsFarAsTheSources) {
     }
 }
 
+/// Metres by which the elbow is ahead of the line from shoulder to foot.
+double ahead(Animal& animal, const std::string& leg) {
+    const glm::dvec3 way = animal.way(leg + "0", leg + "2");
+    const glm::dvec3 middle = animal.place(leg + "1") - animal.place(leg + "0");
+    return (middle - way * glm::dot(middle, way)).z;
+}
+
+TEST(RetargetAnimals, AFootThatStandsBendsItsLegAsTheSource) {
+    Animal source(AnimalSpec{});
+    // Its leg is counted from the elbow, so that the wrist stands ahead of it, where the source's elbow is behind.
+    Animal target(AnimalSpec{.front_leans = {15.0, -15.0}});
+    Retarget retargeted = made(source, target);
+    RetargetState state;
+    for (int frame = 0; frame < 40; ++frame) {
+        source.pose().set_rest();
+        source.move_hips(glm::vec3(0.0f, -0.03f, 0.05f * static_cast<float>(std::sin(0.3 * frame))));
+        ContactWeights contacts{1, 1, 1, 1, 1, 1, 1, 1};
+        if (frame % 20 >= 10) contacts.fill(0);
+        ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state, contacts));
+        for (const std::string leg : {"leftFront", "rightFront"}) {
+            ASSERT_LT(ahead(source, leg), -0.01);
+            EXPECT_LT(ahead(target, leg), -0.01) << leg << " in frame " << frame;
+        }
+    }
+}
+
+TEST(RetargetAnimals, NoLegTurnsOverToReachItsFoot) {
+    ConstraintRecord narrow, wide;
+    narrow.model = static_cast<std::uint8_t>(ConstraintModel::largest_angle);
+    narrow.rotation_max = {0.15f, 0.0f, 0.0f};
+    wide.model = static_cast<std::uint8_t>(ConstraintModel::hinge);
+    wide.rotation_min = {-1.7f, 0.0f, 0.0f};
+    wide.rotation_max = {1.9f, 0.0f, 0.0f};
+    Animal source(AnimalSpec{});
+    Animal target(AnimalSpec{.body = {.axes = 0}, .shoulders = {narrow}, .elbows = {wide}});
+    Retarget retargeted = made(source, target);
+    RetargetState state;
+    const ContactWeights firm{1, 1, 1, 1, 1, 1, 1, 1};
+    double missed = 0.0;
+    for (int frame = 0; frame < 200; ++frame) {
+        source.pose().set_rest();
+        for (const std::string leg : {"leftFront", "rightFront"}) {
+            source.turn_by(leg + "0", {1, 0, 0}, 40.0 * std::sin(0.06 * frame));
+            source.turn_by(leg + "1", {1, 0, 0}, -30.0 * (1.0 - std::cos(0.06 * frame)));
+        }
+        const auto done = retarget(target.pose(), retargeted, source.pose(), state, firm);
+        ASSERT_TRUE(done);
+        missed = std::max(missed, double{done->missed});
+        for (const std::string leg : {"leftFront", "rightFront"})
+            EXPECT_LT(ahead(target, leg), 0.03) << leg << " in frame " << frame;
+    }
+    EXPECT_GT(missed, 0.01) << "no limit acted";
+}
+
 TEST(RetargetAnimals, AnAnimalAtRestStandsOnAllFeet) {
     Animal source(AnimalSpec{});
     Animal target(kHorse);

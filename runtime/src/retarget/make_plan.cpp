@@ -206,7 +206,7 @@ private:
         plan_.limbs.resize(target_.limbs().size());
         for (std::size_t k = 0; k < plan_.limbs.size(); ++k) {
             const Limb& limb = target_.limbs()[k];
-            make_limb(plan_.limbs[k], limb, k < 2 ? ahead : -ahead);
+            make_limb(plan_.limbs[k], source_.limbs()[k], limb, k < 2 ? ahead : -ahead);
             if (limb.is_leg) make_foot(plan_.feet.emplace_back(), source_.limbs()[k], limb);
         }
     }
@@ -219,8 +219,19 @@ private:
         return end == kNone ? 0 : links;
     }
 
+    /// Returns the way from the line between a limb's ends to its middle at rest; zero if it is nearly straight.
+    static glm::dvec3 bend_of(const Body& body, const Limb& limb) {
+        constexpr double kBent = 0.05;  // of the length
+        const glm::dvec3 middle = body.place(limb.joints[1]) - body.place(limb.joints[0]);
+        const glm::dvec3 way = body.place(limb.joints[2]) - body.place(limb.joints[0]);
+        const double square = glm::dot(way, way);
+        const glm::dvec3 bend = square > 0.0 ? middle - way * (glm::dot(middle, way) / square) : middle;
+        const double length = glm::length(middle) + glm::length(way - middle);
+        return glm::length(bend) > kBent * length ? bend : glm::dvec3(0.0);
+    }
+
     /// \param side  to which a straight limb bends
-    void make_limb(LimbPlan& limb, const Limb& of, const glm::dvec3& side) {
+    void make_limb(LimbPlan& limb, const Limb& from, const Limb& of, const glm::dvec3& side) {
         limb.upper = of.joints[0];
         limb.lower = of.joints[1];
         limb.end = of.joints[2];
@@ -229,11 +240,11 @@ private:
         const glm::dvec3 middle = target_.place(limb.lower);
         const glm::dvec3 end = target_.place(limb.end);
         limb.length = glm::length(middle - start) + glm::length(end - middle);
-        const glm::dvec3 way = end - start;
-        glm::dvec3 bend = middle - start;
-        constexpr double kBent = 0.05;  // of the length
-        if (glm::dot(way, way) > 0.0) bend -= way * (glm::dot(bend, way) / glm::dot(way, way));
-        if (!(glm::length(bend) > kBent * limb.length)) bend = side;
+        glm::dvec3 bend = bend_of(target_, of);
+        if (bend == glm::dvec3(0.0)) bend = side;
+        // Legs of animals may be counted from shoulder or elbow, and so bend as the source's.
+        const glm::dvec3 of_source = source_.axes() * (glm::conjugate(target_.axes()) * bend);
+        if (!plan_.is_human && glm::dot(bend_of(source_, from), of_source) < 0.0) bend = -bend;
         limb.bend = glm::conjugate(target_.turn(limb.upper)) * glm::normalize(bend);
         const bool is_detached = links_between(limb.lower, limb.end) == 0;
         const std::uint32_t tip = is_detached ? limb.lower : limb.end;

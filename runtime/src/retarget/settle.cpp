@@ -204,16 +204,39 @@ private:
         return glm::length(place(plan.foot) - (limb.wanted + limb.below));
     }
 
-    /// Leaves the limb as it is if it cannot come nearer within the limits. Returns the distance that is left.
+    /// Leaves the limb as it is if it cannot come nearer within the limits, or only turned over. Returns the distance
+    /// that is left.
     double try_to_reach(const LimbPlan& plan, const LimbFrame& limb, double distance) {
         const std::array joints{plan.upper, plan.lower, plan.end};
         std::array<JointTransform, joints.size()> before;
         for (std::size_t k = 0; k < joints.size(); ++k) before[k] = to_.local_of(joints[k]);
-        reach_for(plan, limb);
-        const double left = distance_left(plan, limb);
-        if (left <= distance) return left;
-        for (std::size_t k = 0; k < joints.size(); ++k) to_.set_local(joints[k], before[k]);
+        // Where limits stop the two-bone solver, it turns a leg over; least squares go on from its pose.
+        for (const Solver solver : {Solver::two_bone, Solver::least_squares}) {
+            reach_for(plan, limb, solver);
+            const double left = distance_left(plan, limb);
+            const bool is_over = is_turned_over(plan);
+            if (left <= distance && !is_over) return left;
+            for (std::size_t k = 0; k < joints.size(); ++k) to_.set_local(joints[k], before[k]);
+            if (!is_over) break;
+        }
         return distance;
+    }
+
+    /// Returns true if a constraint limits knee or elbow.
+    [[nodiscard]] bool has_limits(const LimbPlan& plan) const {
+        return plan_.options.obey_constraints && to_.data->ik_constraint(plan.lower) != kNone;
+    }
+
+    /// Returns true if an animal's leg is bent to the wrong side, which wide limits allow.
+    [[nodiscard]] bool is_turned_over(const LimbPlan& plan) const {
+        if (plan_.is_human || !has_limits(plan)) return false;
+        constexpr double kClearly = 0.03;  // of the length
+        const glm::dvec3 start = place(plan.upper), way = place(plan.end) - start, middle = place(plan.lower) - start;
+        const glm::dvec3 bend = glm::dmat3(to_.fresh_matrix(plan.upper)) * plan.bend;
+        const double length = glm::dot(way, way);
+        if (!(length > 0.0)) return false;
+        return glm::dot(middle - way * (glm::dot(middle, way) / length), glm::normalize(bend)) <
+               -kClearly * plan.length;
     }
 
     /// Bends a limb that is straight, or bent to the wrong side, a little to the side that it bends to, so that a
@@ -242,18 +265,19 @@ private:
         to_.set_rotation(joint, glm::quat(glm::normalize(local)));
     }
 
-    void reach_for(const LimbPlan& plan, const LimbFrame& limb) {
+    void reach_for(const LimbPlan& plan, const LimbFrame& limb, Solver solver) {
         const Chain& chain = plan.chain != nullptr ? *plan.chain : plan.own;
         ReachOptions options;
-        options.solver = Solver::two_bone;
+        options.solver = solver;
         options.obey_constraints = plan_.options.obey_constraints;
         // Without a pole the solver keeps the plane in which a limb is bent.
         options.iterations = kIterations;
         options.restarts = 0;
         // A knee with limits knows where it bends to.
-        if (to_.data->ik_constraint(plan.lower) == kNone || !plan_.options.obey_constraints) bend_a_little(plan, limb);
+        if (!has_limits(plan)) bend_a_little(plan, limb);
         const ReachTarget target{glm::vec3(limb.wanted)};
-        if (!reach_quickly(chain, target, pose_, options)) (void)reach_at_length(chain, target, pose_, options);
+        const bool is_reached = solver == Solver::two_bone && reach_quickly(chain, target, pose_, options);
+        if (!is_reached) (void)reach_at_length(chain, target, pose_, options);
         place_detached(plan_, to_);
         const glm::dquat space = rigid_rotation(to_.fresh_matrix(plan_.target.parents()[plan.end]));
         to_.set_rotation(plan.end, glm::quat(glm::normalize(glm::conjugate(space) * limb.turn)));

@@ -22,8 +22,7 @@ using namespace test;
 /// Role, with its place if it is a chain, to the joint's name.
 using Roles = std::map<std::string, std::string>;
 
-Roles roles_of(const Gltf& gltf) {
-    Scene scene = *gltf.import();
+Roles roles_of(Scene scene) {
     Report unheard;
     find_roles(scene, kNone, unheard);
     Report report;
@@ -35,6 +34,9 @@ Roles roles_of(const Gltf& gltf) {
         roles[word] = scene.joints[record.joint].name;
     }
     return roles;
+}
+Roles roles_of(const Gltf& gltf) {
+    return roles_of(*gltf.import());
 }
 Roles roles_of(const HumanoidGltf& character) {
     return roles_of(character.build());
@@ -389,6 +391,39 @@ TEST(FindRoles, AnAnimalHasChains) {
     EXPECT_EQ(roles.at("right_hind_leg1"), "rightLowerLeg");
     EXPECT_EQ(roles.at("right_hind_leg3"), "rightToes") << "down to the hoof, paw or claw";
     EXPECT_EQ(roles.count("left_upper_arm"), 0u);
+}
+
+TEST(FindRoles, APawMayHangOnJointsOfAnIkRig) {
+    HumanoidGltf animal = make_quadruped();
+    for (const double side : {1.0, -1.0}) {
+        const std::string s = side > 0 ? "left" : "right";
+        animal.add(s + "Pole", "", {side * 0.1, 0.3, 1.0});
+        animal.add(s + "Ik", "", animal[s + "Hand"].position);
+        animal.add(s + "Paw", s + "Ik", {side * 0.1, 0.0, 0.4});
+    }
+    Scene scene = *animal.build().import();
+    Mesh mesh;
+    mesh.influences = 1;
+    for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+        if (!scene.joints[joint].name.ends_with("Hand") && !scene.joints[joint].name.ends_with("Pole"))
+            mesh.palette.joints.push_back(joint);
+    }
+    const std::size_t count = mesh.palette.joints.size();
+    mesh.palette.inverse_bind.assign(count, glm::mat4(1.0f));
+    mesh.positions.assign(count, glm::vec3(0.0f));
+    mesh.weights.assign(count, 1.0f);
+    for (std::uint32_t bone = 0; bone < count; ++bone) mesh.bones.push_back(bone);
+    scene.meshes.push_back(mesh);
+    Roles roles = roles_of(scene);
+    EXPECT_EQ(roles.at("left_front_leg1"), "leftLowerArm");
+    EXPECT_EQ(roles.at("left_front_leg2"), "leftIk");
+    EXPECT_EQ(roles.at("right_front_leg3"), "rightPaw");
+    EXPECT_EQ(roles.at("left_hind_leg2"), "leftFoot");
+    // If the leg's own end moves vertices, it is the foot.
+    scene.meshes[0].palette.joints[0] = joint_named(scene, "leftHand");
+    roles = roles_of(scene);
+    EXPECT_EQ(roles.at("left_front_leg2"), "leftHand");
+    EXPECT_EQ(roles.at("right_front_leg2"), "rightIk");
 }
 
 TEST(FindRoles, ABirdHasWings) {

@@ -35,9 +35,6 @@ std::vector<bool> find_bound_joints(const Scene& scene) {
     return bound;
 }
 
-namespace {
-
-/// By joint: whether it or a descendant moves vertices. All true if nothing moves any.
 std::vector<bool> find_moving_joints(const Scene& scene) {
     std::vector<bool> moves(scene.joints.size());
     for (const Mesh& mesh : scene.meshes) {
@@ -53,6 +50,8 @@ std::vector<bool> find_moving_joints(const Scene& scene) {
     add_ancestors(scene, moves);
     return moves;
 }
+
+namespace {
 
 /// Calls `visit` with each vertex that the joint moves, in the joint's space.
 template <class Visit>

@@ -37,6 +37,9 @@ struct NamedHumanoid {
     bool contradicts_names = false;  ///< left and right are opposite to the names
 };
 
+/// By joint: whether it or a descendant moves vertices. All true if nothing moves any.
+std::vector<bool> find_moving_joints(const Scene& scene);
+
 /// The upper, lower and last bone of a limb.
 struct LimbBones {
     HumanBone upper, lower, end;

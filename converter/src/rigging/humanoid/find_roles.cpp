@@ -163,14 +163,27 @@ private:
 constexpr std::array<std::array<Role, 2>, 2> kLegRoles{std::array{Role::left_front_leg, Role::right_front_leg},
                                                        std::array{Role::left_hind_leg, Role::right_hind_leg}};
 
+/// The joints of a leg. Where joints of an IK rig move the paw, the first of them stands for the leg's end.
+Joints joints_of_leg(const Scene& scene, const Quadruped& animal, std::size_t leg, const std::vector<bool>& moves) {
+    Joints joints = animal.legs[leg];
+    const std::uint32_t target = animal.targets[leg];
+    if (target != kNone && moves[target] && !moves[joints.back()]) {
+        joints.back() = target;
+        for (std::uint32_t joint = target + 1; joint < scene.joints.size(); ++joint) {
+            if (scene.joints[joint].parent == joints.back() && moves[joint]) joints.push_back(joint);
+        }
+    } else {
+        joints.insert(joints.end(), animal.paws[leg].begin(), animal.paws[leg].end());
+    }
+    return joints;
+}
+
 void add_animal(const Scene& scene, const RestFrames& rest, const Quadruped& animal, RoleList& roles) {
     const std::uint32_t hips = common_ancestor(
         scene, rest, {animal.legs[Quadruped::left_hind].front(), animal.legs[Quadruped::right_hind].front()});
-    for (std::size_t leg = 0; leg < animal.legs.size(); ++leg) {
-        Joints joints = animal.legs[leg];
-        joints.insert(joints.end(), animal.paws[leg].begin(), animal.paws[leg].end());
-        roles.add_chain(kLegRoles[leg / 2][leg % 2], joints);
-    }
+    const std::vector<bool> moves = find_moving_joints(scene);
+    for (std::size_t leg = 0; leg < animal.legs.size(); ++leg)
+        roles.add_chain(kLegRoles[leg / 2][leg % 2], joints_of_leg(scene, animal, leg, moves));
     Joints neck = animal.neck;
     if (!neck.empty()) roles.add(Role::head, neck.back());
     if (!neck.empty()) neck.pop_back();
