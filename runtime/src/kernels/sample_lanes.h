@@ -39,7 +39,7 @@ inline SlerpWeight<float> slerp_weight(float time) {
     return weight;
 }
 
-inline SlerpWeight<Lanes> slerp_weight(Lanes time) {
+BENDY_NOINLINE inline SlerpWeight<Lanes> slerp_weight(Lanes time) {
     SlerpWeight<Lanes> weight{time, {}};
     const Lanes square = time * time;
     const Lanes scale = time * (1.0f - square);
@@ -153,7 +153,7 @@ inline Lanes fractions_of(const TimedBlock& block, std::size_t first) {
     return chosen(negatives(block.seconds - right), fraction, 1.0f);
 }
 
-inline void sample_timed_rotations(const TimedBlock& block, std::size_t first) {
+BENDY_NOINLINE inline void sample_timed_rotations(const TimedBlock& block, std::size_t first) {
     Lanes a[4];
     Lanes b[4];
     load_fours(block.keys + first, 0, a);
@@ -162,7 +162,7 @@ inline void sample_timed_rotations(const TimedBlock& block, std::size_t first) {
     store_tracks<4>(a, *block.group, first, block.local);
 }
 
-inline void sample_timed_vectors(const TimedBlock& block, std::size_t first) {
+BENDY_NOINLINE inline void sample_timed_vectors(const TimedBlock& block, std::size_t first) {
     Lanes left[4];
     Lanes left_z_and_right[4];
     load_fours(block.keys + first, 0, left);

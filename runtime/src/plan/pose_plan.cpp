@@ -12,7 +12,6 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
-#include <unordered_map>
 
 namespace bendy {
 namespace {
@@ -164,8 +163,8 @@ void add_timed(const TrackGroup& group, const SampleLine& line, bool is_rotation
     for (std::uint32_t lane = 0; lane < kBlockJoints; ++lane) {
         if (group.has_track[lane] == 0) continue;
         to.tracks.keys[lane] = group.keys[lane];
+        to.tracks.count += to.tracks.has_track[lane] == 0 ? 1 : 0;
         to.tracks.has_track[lane] = kAllBits;
-        ++to.tracks.count;
         to.times[lane] = line.clock->times.data();
         to.keys[lane] = line.clock->keys;
     }
@@ -183,29 +182,31 @@ void fill_lanes(TimedGroup& group) {
 }
 
 /// Joins small groups of a block with different times.
-void join_small(SamplePlan& plan) {
+void join_small(SamplePlan& plan, std::size_t joints) {
     const auto is_small = [](const TrackGroup& group) { return group.count < kLeast; };
-    const auto for_all = [&](const auto& visit) {
+    constexpr std::uint32_t kOne = 1, kTaken = 0x8000'0000;
+    // By place: how many groups are small; then, with kTaken, the number of the timed group that has them.
+    std::vector<std::uint32_t> places((joints / kBlockJoints + 1) * kBlockFloats / kBlockJoints);
+    for (const bool counts : {true, false}) {
+        const auto visit = [&](const SampleLine& line, std::vector<TrackGroup>& groups, bool is_rotation) {
+            std::erase_if(groups, [&](const TrackGroup& group) {
+                std::uint32_t& place = places[group.place / kBlockJoints];
+                if (counts) place += is_small(group) ? kOne : 0;
+                if (counts || !is_small(group) || place == kOne) return false;
+                if (place < kTaken) {
+                    place = kTaken + static_cast<std::uint32_t>(plan.timed.size());
+                    plan.timed.emplace_back();
+                }
+                add_timed(group, line, is_rotation, plan.timed[place - kTaken]);
+                return true;
+            });
+        };
         for (SampleLine& line : plan.lines) {
             if (line.clock->times.empty()) continue;
             visit(line, line.linear.rotations, true);
             visit(line, line.linear.vectors, false);
         }
-    };
-    std::unordered_map<std::uint32_t, std::uint32_t> counts;  // of small groups, by place
-    for_all([&](const SampleLine&, const std::vector<TrackGroup>& groups, bool) {
-        for (const TrackGroup& group : groups) counts[group.place] += is_small(group) ? 1 : 0;
-    });
-    std::unordered_map<std::uint32_t, std::size_t> numbers;  // of timed groups, by place
-    for_all([&](const SampleLine& line, std::vector<TrackGroup>& groups, bool is_rotation) {
-        std::erase_if(groups, [&](const TrackGroup& group) {
-            if (!is_small(group) || counts[group.place] < 2) return false;
-            const auto [found, is_new] = numbers.try_emplace(group.place, plan.timed.size());
-            if (is_new) plan.timed.emplace_back();
-            add_timed(group, line, is_rotation, plan.timed[found->second]);
-            return true;
-        });
-    });
+    }
     for (TimedGroup& group : plan.timed) fill_lanes(group);
 }
 
@@ -253,7 +254,8 @@ void set_constant(const TrackView& track, std::span<JointBlock> start) {
     for (std::size_t c = 0; c < track.components; ++c) to[kBlockJoints * c] = track.values[c];
 }
 
-void add_tracks(std::span<const TrackView> tracks, SamplePlan& plan, std::vector<JointBlock>& start) {
+void add_tracks(std::span<const TrackView> tracks, std::size_t joints, SamplePlan& plan,
+                std::vector<JointBlock>& start) {
     for (const TrackView& track : tracks) {
         if (is_constant(track)) {
             set_constant(track, start);
@@ -269,7 +271,7 @@ void add_tracks(std::span<const TrackView> tracks, SamplePlan& plan, std::vector
             add_track(track, line.linear);
         }
     }
-    join_small(plan);
+    join_small(plan, joints);
     for (SampleLine& line : plan.lines) split_small(line.linear);
     std::erase_if(plan.lines, [](const SampleLine& line) {
         return line.linear.is_empty() && line.cubic_tracks.empty() && line.others.empty();
@@ -280,12 +282,12 @@ SamplePlan make_sample_plan(const ClipView& clip, std::span<const JointTransform
     SamplePlan plan;
     if (clip.packed) {
         plan.packed = make_unpack_plan(*clip.packed, rest);
-        add_tracks(clip.tracks, plan, plan.packed.start);
+        add_tracks(clip.tracks, rest.size(), plan, plan.packed.start);
     } else if (std::any_of(clip.tracks.begin(), clip.tracks.end(), is_constant)) {
         plan.start = to_blocks(rest);
-        add_tracks(clip.tracks, plan, plan.start);
+        add_tracks(clip.tracks, rest.size(), plan, plan.start);
     } else {
-        add_tracks(clip.tracks, plan, plan.start);
+        add_tracks(clip.tracks, rest.size(), plan, plan.start);
     }
     return plan;
 }
