@@ -340,12 +340,12 @@ TEST(FindGrid, TakesTheRateOfTheKeys) {
         auto sparse = frames(300, rate, 0.5);
         std::erase_if(sparse, [k = 0](float) mutable { return k++ % 3 != 0; });
         rotate(scene, 1, sparse, wave);
-        const auto found = find_grid(scene.clips[0]);
-        ASSERT_TRUE(found);
-        EXPECT_NEAR(found->grid.rate, rate, 1e-3);
-        EXPECT_EQ(found->grid.frames, 300u);
-        EXPECT_EQ(found->grid.start, 0.5f);
-        EXPECT_EQ(found->tracks.size(), 2u);
+        const auto found = find_grids(scene.clips[0]);
+        ASSERT_FALSE(found.empty());
+        EXPECT_NEAR(found[0].grid.rate, rate, 1e-3);
+        EXPECT_EQ(found[0].grid.frames, 300u);
+        EXPECT_EQ(found[0].grid.start, 0.5f);
+        EXPECT_EQ(found[0].tracks.size(), 2u);
     }
 }
 
@@ -353,10 +353,39 @@ TEST(FindGrid, IsTwiceAsDenseWhereKeysLieBetween) {
     Scene scene = chain(2);
     rotate(scene, 0, frames(30, 30.0), wave);
     rotate(scene, 1, frames(29, 30.0, 1.0 / 60.0), wave);
-    const auto found = find_grid(scene.clips[0]);
-    ASSERT_TRUE(found);
-    EXPECT_NEAR(found->grid.rate, 60.0, 1e-3);
-    EXPECT_EQ(found->tracks.size(), 2u);
+    const auto found = find_grids(scene.clips[0]);
+    ASSERT_FALSE(found.empty());
+    EXPECT_NEAR(found[0].grid.rate, 60.0, 1e-3);
+    EXPECT_EQ(found[0].tracks.size(), 2u);
+}
+
+// Retargeted motion capture: a joint that jumps gets keys of its own between two frames.
+TEST(FindGrid, ListsTimesIfAFewKeysLieCloseTogether) {
+    Scene scene = chain(2);
+    auto times = frames(300, 120.0);
+    rotate(scene, 0, times, wave);
+    times.insert(times.begin() + 100, times[99] + 1.0f / 960.0f);
+    rotate(scene, 1, times, wave);
+    const auto found = find_grids(scene.clips[0]);
+    ASSERT_FALSE(found.empty());
+    EXPECT_EQ(found[0].grid.times, times);
+    EXPECT_EQ(found[0].tracks.size(), 2u);
+    const PackedReport report = pack_and_check(scene);
+    EXPECT_GT(report.packed_bytes, 0u);
+}
+
+// Exporters write times with few digits. A joint that jumps within a frame is far off even a thousandth of it later.
+TEST(FindGrid, ListsTimesIfAJumpIsOffAnEvenGrid) {
+    Scene scene = chain(2);
+    auto times = frames(300, 37.5);
+    times[150] += 0.001f / 37.5f;
+    rotate(scene, 0, times, [](float t) { return glm::vec3(t < 3.99f ? 0.0f : 2.0f, 0.0f, 0.0f); });
+    const auto found = find_grids(scene.clips[0]);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_NEAR(found[0].grid.rate, 37.5, 1e-3);
+    EXPECT_EQ(found[1].grid.times, times);
+    const PackedReport report = pack_and_check(scene);
+    EXPECT_GT(report.packed_bytes, 0u);
 }
 
 }  // namespace

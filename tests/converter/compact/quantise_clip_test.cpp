@@ -102,14 +102,15 @@ TEST(QuantiseClip, UsesTheErrorThatIsAllowed) {
     for (std::uint32_t seed = 1; seed <= 6; ++seed) {
         const Scene scene = tree(seed);
         const Clip& clip = scene.clips[0];
-        const auto tracks = find_grid(clip);
-        ASSERT_TRUE(tracks);
-        ASSERT_EQ(tracks->tracks.size(), clip.tracks.size());
+        const auto grids = find_grids(clip);
+        ASSERT_FALSE(grids.empty());
+        const GridTracks& tracks = grids.front();
+        ASSERT_EQ(tracks.tracks.size(), clip.tracks.size());
         const auto probes = find_probes(scene, Probes::shell);
-        const ClipFrames frames(scene, clip, tracks->grid);
+        const ClipFrames frames(scene, clip, tracks.grid);
         for (const double allowed : {1e-5, 1e-4, 1e-3}) {
             for (const bool corrects : {true, false}) {
-                const PackedSamples samples = quantise(frames, clip, *tracks, probes, {allowed, corrects});
+                const PackedSamples samples = quantise(frames, clip, tracks, probes, {allowed, corrects});
                 const double error = error_of(samples, frames, probes);
                 EXPECT_LE(error, 1.02 * allowed) << "seed " << seed << (corrects ? ", corrected" : "");
                 EXPECT_GE(error, 0.9 * allowed) << "seed " << seed << (corrects ? ", corrected" : "");

@@ -143,20 +143,27 @@ double Grid::snap() const {
     return rate != 0.0f ? kGridTolerance / rate : 0.0;
 }
 
-std::optional<GridTracks> find_grid(const Clip& clip, std::size_t most_frames, const std::vector<bool>& still) {
+std::vector<GridTracks> find_grids(const Clip& clip, std::size_t most_frames, const std::vector<bool>& still) {
     const Tracks tracks = sort_tracks(clip, still);
-    GridTracks found;
+    std::vector<GridTracks> found;
     if (!tracks.moving.empty()) {
-        found = even_grid(clip, tracks, static_cast<double>(most_frames));
-        if (found.tracks.size() < tracks.moving.size()) {
-            Grid uneven = uneven_grid(clip, tracks, most_frames);
-            if (uneven.frames > 1) found = {std::move(uneven), tracks.moving};
-        }
+        // A few keys between the others make an even grid needlessly dense: a listed time takes less than a frame.
+        constexpr std::uint32_t kSparse = 2;
+        GridTracks even = even_grid(clip, tracks, static_cast<double>(most_frames));
+        GridTracks uneven{uneven_grid(clip, tracks, most_frames), tracks.moving};
+        const bool is_even = !even.tracks.empty();
+        const bool is_uneven = uneven.grid.frames > 1;
+        const bool is_best = is_even && (!is_uneven || (even.tracks.size() == tracks.moving.size() &&
+                                                        even.grid.frames / kSparse < uneven.grid.frames));
+        if (is_best) found.push_back(std::move(even));
+        if (is_uneven) found.push_back(std::move(uneven));
     }
-    if (found.tracks.empty()) found.grid = still_grid(tracks);
-    found.tracks.insert(found.tracks.end(), tracks.still.begin(), tracks.still.end());
-    std::sort(found.tracks.begin(), found.tracks.end());
-    return found.tracks.empty() ? std::nullopt : std::optional(std::move(found));
+    if (found.empty() && !tracks.still.empty()) found.push_back({still_grid(tracks), {}});
+    for (GridTracks& grid : found) {
+        grid.tracks.insert(grid.tracks.end(), tracks.still.begin(), tracks.still.end());
+        std::sort(grid.tracks.begin(), grid.tracks.end());
+    }
+    return found;
 }
 
 namespace {
@@ -202,11 +209,22 @@ Local between(const Local& a, const Local& b, double u) {
     return found;
 }
 
+/// Number of steps in a grid, as if all had the usual length.
+std::uint32_t even_steps(const Grid& grid) {
+    if (grid.rate != 0.0f || grid.frames < 2) return grid.frames - 1;
+    std::vector<float> steps;
+    for (std::size_t k = 1; k < grid.times.size(); ++k) steps.push_back(grid.times[k] - grid.times[k - 1]);
+    const auto usual = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), usual, steps.end());
+    const double count = (double{grid.times.back()} - grid.times.front()) / *usual;
+    return static_cast<std::uint32_t>(std::nearbyint(std::min(count, grid.frames - 1.0)));
+}
+
 double error_of(const Track& track, const Local& rest, const Grid& from, const Grid& to, double reach, double most) {
     std::vector<Local> kept(to.frames, rest);
     std::vector<double> value;
     for (std::uint32_t f = 0; f < to.frames; ++f) {
-        evaluate_track(track, to.time_of(f), value);
+        evaluate_track(track, snapped(track, to.time_of(f), to.snap()), value);
         set_property(track.path, value, kept[f]);
     }
     double worst = 0.0;
@@ -260,23 +278,29 @@ std::vector<bool> find_still(const Scene& scene, const Clip& clip, const std::ve
     return still;
 }
 
-std::optional<ThinGrid> thin_grid(const Scene& scene, const Clip& clip, const GridTracks& tracks, std::uint32_t fewer,
-                                  const std::vector<std::vector<glm::dvec3>>& probes, double most) {
-    const Grid& old = tracks.grid;
-    const std::uint32_t frames = (old.frames - 1 + fewer / 2) / fewer + 1;
-    if (old.rate == 0.0f || frames < kFewest) return std::nullopt;
-    ThinGrid thin{old, 0.0};
-    thin.grid.frames = frames;
-    thin.grid.rate = static_cast<float>(double{old.rate} * (frames - 1) / (old.frames - 1));
+double grid_error(const Scene& scene, const Clip& clip, const GridTracks& tracks, const Grid& even,
+                  const std::vector<std::vector<glm::dvec3>>& probes, double most) {
+    double worst = 0.0;
     for (const std::uint32_t number : tracks.tracks) {
         const Track& track = clip.tracks[number];
         double reach = 0.0;
         for (const glm::dvec3& probe : probes[track.target]) reach = std::max(reach, glm::length(probe));
         const Local rest = local_of(scene.joints[track.target].rest);
-        thin.error = std::max(thin.error, error_of(track, rest, old, thin.grid, reach, most));
-        if (thin.error > most) return std::nullopt;
+        worst = std::max(worst, error_of(track, rest, tracks.grid, even, reach, most));
+        if (worst > most) break;
     }
-    return thin;
+    return worst;
+}
+
+std::optional<ThinGrid> thin_grid(const Scene& scene, const Clip& clip, const GridTracks& tracks, std::uint32_t fewer,
+                                  const std::vector<std::vector<glm::dvec3>>& probes, double most) {
+    const Grid& old = tracks.grid;
+    const std::uint32_t frames = (even_steps(old) + fewer / 2) / fewer + 1;
+    if (frames < kFewest) return std::nullopt;
+    ThinGrid thin{{old.start, 0.0f, frames, {}}, 0.0};
+    thin.grid.rate = static_cast<float>((frames - 1) / (old.time_of(old.frames - 1) - double{old.start}));
+    thin.error = grid_error(scene, clip, tracks, thin.grid, probes, most);
+    return thin.error <= most ? std::optional(thin) : std::nullopt;
 }
 
 }  // namespace bendy::converter

@@ -28,17 +28,20 @@ inline constexpr std::size_t kMostFrames = 16'000'000;
 /// The time of the track's last key within `snap` seconds of the given time; or that time itself.
 double snapped(const Track& track, double seconds, double snap);
 
-/// The coarsest grid that holds the keys of as many tracks as possible, and the numbers of those tracks: linear ones of
-/// joints. If no even grid holds them all, the list of all key times, if there are few. Constant tracks need no grid.
-/// Nothing if there is nothing to pack.
-/// \param most_frames  maximum number of frames of a grid
-/// \param still        per track: it counts as constant although its keys differ, see find_still; may be empty
+/// A grid, and the numbers of the tracks that it holds: linear ones of joints, and constant ones, which need no grid.
 struct GridTracks {
     Grid grid;
     std::vector<std::uint32_t> tracks;
 };
-std::optional<GridTracks> find_grid(const Clip& clip, std::size_t most_frames = kMostFrames,
-                                    const std::vector<bool>& still = {});
+
+/// The grids to try, best first; none if there is nothing to pack. The coarsest even grid that holds the keys of all
+/// tracks; then the list of all key times, if they are few, which is exact where keys lie a little beside the even
+/// grid. The list alone if the even grid has far more frames, or misses keys; the even grid that holds the keys of most
+/// tracks if the times are too many for a list.
+/// \param most_frames  maximum number of frames of a grid
+/// \param still        per track: it counts as constant although its keys differ, see find_still; may be empty
+std::vector<GridTracks> find_grids(const Clip& clip, std::size_t most_frames = kMostFrames,
+                                   const std::vector<bool>& still = {});
 
 /// Which step tracks are constant within a small part of the bound: exporters write constants as two such keys.
 /// \param probes     per joint, see find_probes
@@ -49,17 +52,20 @@ std::vector<bool> find_still(const Scene& scene, const Clip& clip, const std::ve
 /// Keys farther from a frame than this, in frames, are off the grid.
 inline constexpr double kGridTolerance = 0.01;
 
+/// Metres: the worst single joint's error from interpolating between the frames of an even grid, at its own probes and
+/// at the frames of the tracks' grid. Errors of its ancestors are not included. It stops at an error of more than
+/// `most`. \param probes  per joint, see find_probes
+double grid_error(const Scene& scene, const Clip& clip, const GridTracks& tracks, const Grid& even,
+                  const std::vector<std::vector<glm::dvec3>>& probes, double most);
+
 /// A grid of the same span with fewer frames.
 struct ThinGrid {
     Grid grid;
-    /// Metres: the worst single joint's error from interpolating between the frames, at its own probes and at the old
-    /// frames. Errors of its ancestors are not included.
-    double error = 0.0;
+    double error = 0.0;  ///< see grid_error
 };
 
-/// Keeps about one frame in `fewer`, evenly spaced: frames need not lie on keys. Nothing if the old grid is uneven, few
-/// frames would be left, or the error is more than `most` metres.
-/// \param probes  per joint, see find_probes
+/// An even grid with about one frame in `fewer`, which need not lie on keys. Nothing if few frames would be left, or
+/// the error is more than `most` metres.
 std::optional<ThinGrid> thin_grid(const Scene& scene, const Clip& clip, const GridTracks& tracks, std::uint32_t fewer,
                                   const std::vector<std::vector<glm::dvec3>>& probes, double most);
 

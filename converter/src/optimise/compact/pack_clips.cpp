@@ -22,6 +22,8 @@
 namespace bendy::converter {
 namespace {
 
+constexpr double kMostBetween = 0.7;  // of the bound, for interpolation between frames: more leaves too fine steps
+
 struct Packed {
     std::vector<std::byte> bytes;
     WorstError worst;
@@ -107,11 +109,11 @@ std::optional<Packed> pack_frames(SourceMotion& source, const GridTracks& tracks
 void pack_thinner(SourceMotion& source, const GridTracks& tracks, const std::vector<bool>& is_replaced,
                   const std::vector<std::vector<glm::dvec3>>& probes, double max_error, Packed& best,
                   const Progress& progress) {
-    constexpr double kMost = 0.7;  // of the bound, for interpolation between frames: more would leave too fine steps
-    constexpr std::array kFewer{2u, 3u, 4u, 6u, 8u, 12u};
-    for (std::size_t k = 0; k < kFewer.size(); ++k) {
+    constexpr std::array kFewer{1u, 2u, 3u, 4u, 6u, 8u, 12u};
+    const bool is_even = tracks.grid.rate != 0.0f;
+    for (std::size_t k = is_even ? 1 : 0; k < kFewer.size(); ++k) {
         const std::optional<ThinGrid> thin =
-            thin_grid(source.scene(), source.clip(), tracks, kFewer.at(k), probes, kMost * max_error);
+            thin_grid(source.scene(), source.clip(), tracks, kFewer.at(k), probes, kMostBetween * max_error);
         if (!thin) return;
         const GridTracks thinner{thin->grid, tracks.tracks};
         auto packed =
@@ -135,20 +137,28 @@ PackedReport pack_clip(const Scene& scene, Clip& clip, const std::vector<std::ve
     PackedReport report;
     report.name = clip.name;
     report.source_bytes = report.kept_bytes = key_bytes(clip);
-    const std::optional<GridTracks> tracks = find_grid(clip, limits.frames, find_still(scene, clip, probes, max_error));
-    if (!tracks) return report;
-    std::vector<bool> is_replaced(clip.tracks.size());
-    for (const std::uint32_t number : tracks->tracks) is_replaced[number] = true;
+    const auto grids = find_grids(clip, limits.frames, find_still(scene, clip, probes, max_error));
+    if (grids.empty()) return report;
     SourceMotion source(scene, clip, limits.samples, pose_bytes);
-    std::optional<Packed> best = pack_frames(source, *tracks, is_replaced, probes, max_error, 1.0);
-    if (progress) progress(kPackedOnce);
-    if (best) {
+    std::optional<Packed> best;
+    std::vector<bool> is_replaced;
+    for (const GridTracks& tracks : grids) {
+        const double most = kMostBetween * max_error;
+        const bool is_exact = &tracks == &grids.back();
+        const double error = is_exact ? 0.0 : grid_error(scene, clip, grids.back(), tracks.grid, probes, most);
+        if (error > most) continue;
+        is_replaced.assign(clip.tracks.size(), false);
+        for (const std::uint32_t number : tracks.tracks) is_replaced[number] = true;
+        best = pack_frames(source, tracks, is_replaced, probes, max_error, 1.0 - error / max_error);
+        if (!best) continue;
+        if (progress) progress(kPackedOnce);
         pack_thinner(
-            source, *tracks, is_replaced, probes, max_error, *best,
+            source, tracks, is_replaced, probes, max_error, *best,
             progress ? Progress([&](double done) { progress(kPackedOnce + (1.0 - kPackedOnce) * done); }) : Progress());
+        if (best->bytes.size() < key_bytes(clip, &is_replaced) + tracks.tracks.size() * sizeof(TrackRecord)) break;
+        best.reset();
     }
-    if (!best || best->bytes.size() >= key_bytes(clip, &is_replaced) + tracks->tracks.size() * sizeof(TrackRecord))
-        return report;
+    if (!best) return report;
     clip.stated_span = with_frames(span_of(clip), best->bytes);  // constant tracks may be omitted
     std::size_t number = 0;
     std::erase_if(clip.tracks, [&](const Track&) { return is_replaced[number++]; });
