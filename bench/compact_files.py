@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Compares the sizes of compact files with gltfpack's: python3 compact_files.py BENDY FILE... [--gltfpack PATH] [--max-error 0.005%]
+"""Compares the sizes of compact files with gltfpack's: python3 compact_files.py BENDY FILE... [--gltfpack PATH] [--max-error 0.005%] [--keep-unused]
 
-Prints a Markdown table of bytes without images, with and without clips. Needs only Python 3.
+Prints a Markdown table of bytes without images, with and without clips. Both leave out what nothing uses, or keep it
+(`--keep-unused`). Needs only Python 3.
 """
 
 import argparse
@@ -67,7 +68,9 @@ def main():
     parser.add_argument('files', type=pathlib.Path, nargs='+')
     parser.add_argument('--gltfpack')
     parser.add_argument('--max-error', default='0.005%')
+    parser.add_argument('--keep-unused', action='store_true', help='compare with gltfpack -kv')
     arguments = parser.parse_args()
+    ours, theirs = ([], ['-kv']) if arguments.keep_unused else (['--drop-unused'], [])
     print('| file | exact | compact | without clips | gltfpack -cc | -cz | -cz without clips | compact / -cz | without clips |')
     print('|---|---|---|---|---|---|---|---|---|')
     for path in arguments.files:
@@ -81,13 +84,13 @@ def main():
                     sys.exit(done.stderr)
                 return bendy_bytes(out)
             exact = convert('exact.bendy')
-            compact = convert('compact.bendy', '--max-error', arguments.max_error)
+            compact = convert('compact.bendy', '--max-error', arguments.max_error, *ours)
             cells = [path.stem, exact[0], compact[0], compact[0] - compact[1]]
             if arguments.gltfpack:
                 packed = {}
                 for option in ('-cc', '-cz'):
                     out = folder / ('packed%s.glb' % option)
-                    done = subprocess.run([*arguments.gltfpack.split(), '-i', path, '-o', out, option], capture_output=True, text=True)
+                    done = subprocess.run([*arguments.gltfpack.split(), '-i', path, '-o', out, option, *theirs], capture_output=True, text=True)
                     packed[option] = gltf_bytes(out) if done.returncode == 0 else None
                 if packed['-cc'] and packed['-cz']:
                     cz = packed['-cz']

@@ -1,6 +1,7 @@
 #include "optimise/passes/drop_unused.h"
 
 #include <gtest/gtest.h>
+#include <glm/ext/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -160,6 +161,46 @@ TEST(DropUnused, AMeshOfWhichAllIsUsedDoesNotChange) {
     drop_unused(scene, report);
     EXPECT_EQ(mesh.positions.size(), 6u) << "equal vertices are the author's choice";
     EXPECT_TRUE(report.warnings().empty());
+}
+
+TEST(DropUnused, JointsThatMoveNoVertexLeaveThePalette) {
+    Scene scene = scene_of({});
+    scene.joints.resize(5);
+    Mesh& mesh = scene.meshes[0];
+    mesh.influences = 2;
+    mesh.palette.joints = {4, 3, 1, 0};
+    for (const float x : {4.0f, 3.0f, 1.0f, 0.0f})
+        mesh.palette.inverse_bind.push_back(glm::translate(glm::mat4(1.0f), {x, 0.0f, 0.0f}));
+    mesh.bones = {1, 3, 1, 3, 3, 1, 3, 1, 3, 0, 3, 0};
+    mesh.weights = {0.5f, 0.5f, 1.0f, 0.0f, 1.0f, 0.0f, 0.5f, 0.5f, 1.0f, 0.0f, 1.0f, 0.0f};
+    Report report;
+    drop_unused(scene, report);
+    EXPECT_EQ(mesh.palette.joints, (std::vector<std::uint32_t>{3, 0}));
+    ASSERT_EQ(mesh.palette.inverse_bind.size(), 2u);
+    EXPECT_EQ(mesh.palette.inverse_bind[0][3].x, 3.0f);
+    EXPECT_EQ(mesh.palette.inverse_bind[1][3].x, 0.0f);
+    EXPECT_EQ(mesh.positions.size(), 6u) << "no two vertices with the same position have the same bones";
+    EXPECT_EQ(mesh.bones, (std::vector<std::uint32_t>{0, 1, 0, 1, 1, 0, 1, 0, 1, 0, 1, 0}));
+    const std::vector<Warning>& told = report.warnings();
+    const auto found = std::find_if(told.begin(), told.end(), [](const Warning& warning) {
+        return warning.message == "joints of the skin that move no vertex of the mesh are left out of its palette";
+    });
+    ASSERT_NE(found, told.end());
+    EXPECT_EQ(found->count, 2u);
+    EXPECT_EQ(found->first_place, "mesh 'square'");
+}
+
+TEST(DropUnused, APaletteKeepsOneEntryForBonesWithoutWeight) {
+    Scene scene = scene_of({});
+    Mesh& mesh = scene.meshes[0];
+    mesh.influences = 1;
+    mesh.palette.joints = {0, 0};
+    mesh.palette.inverse_bind.resize(2, glm::mat4(1.0f));
+    mesh.bones.assign(6, 1);
+    mesh.weights.assign(6, 0.0f);
+    sets_after(scene);
+    EXPECT_EQ(mesh.palette.joints.size(), 1u);
+    EXPECT_EQ(mesh.bones, std::vector<std::uint32_t>(mesh.bones.size(), 0u));
 }
 
 TEST(DropUnused, AMeshWithoutPolygonsKeepsAll) {

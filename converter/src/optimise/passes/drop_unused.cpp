@@ -3,6 +3,7 @@
 #include "optimise/passes/equal_vertices.h"
 #include "optimise/passes/mesh_order.h"
 #include "optimise/passes/mesh_streams.h"
+#include "optimise/posable_mesh.h"
 #include "scene/failure.h"
 #include "scene/json_text.h"
 
@@ -112,7 +113,28 @@ public:
         tell(message, std::string(attribute));
     }
 
-    /// Merges equal vertices if something was dropped.
+    /// Removes the palette's entries that move no vertex.
+    void drop_entries() {
+        std::vector<bool> used;
+        mark_used(mesh_, used);
+        if (used.empty()) return;
+        if (std::find(used.begin(), used.end(), true) == used.end()) used[0] = true;  // bones must refer to one
+        Palette kept;
+        std::vector<std::uint32_t> place(used.size(), 0);  // 0 also for bones of no weight
+        for (std::size_t entry = 0; entry < used.size(); ++entry) {
+            if (!used[entry]) continue;
+            place[entry] = static_cast<std::uint32_t>(kept.joints.size());
+            kept.joints.push_back(mesh_.palette.joints[entry]);
+            kept.inverse_bind.push_back(mesh_.palette.inverse_bind[entry]);
+        }
+        if (kept.joints.size() == used.size()) return;
+        for (auto& bone : mesh_.bones) bone = place[bone];
+        report_.warn("joints of the skin that move no vertex of the mesh are left out of its palette", name_,
+                     used.size() - kept.joints.size());
+        mesh_.palette = std::move(kept);
+    }
+
+    /// Merges equal vertices if a stream was dropped.
     void merge() {
         if (!has_dropped_ || !mesh_.collapse.empty()) return;
         std::vector<VertexRows> rows;
@@ -175,6 +197,7 @@ void drop_unused(Scene& scene, Report& report) {
         if (!readers.normals) {
             dropper.drop(mesh.normals, &MorphTarget::normals, "NORMAL", "normals that no material uses are left out");
         }
+        dropper.drop_entries();
         dropper.merge();
     }
 }
