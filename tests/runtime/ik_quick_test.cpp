@@ -82,6 +82,7 @@ test::ModelSpec arm(Dice& dice, bool is_limited, bool is_hinge = true) {
         if (is_limited && joint == 1)
             own.constraints = {random_constraint(dice, kModels[spec.joints.size() + dice.one_in(2)])};
         if (is_limited && joint == 2) own.constraints = {random_elbow(dice, is_hinge)};
+        if (is_limited && joint == 3 && dice.one_in(2)) own.constraints = {random_constraint(dice, kModels[0])};
         spec.joints.push_back(own);
     }
     ChainRecord chain;
@@ -123,6 +124,11 @@ Count compare(std::uint32_t chain, bool is_limited, bool is_hinge = true) {
                 test::local_of(quick, 2)->rotation = quick.local(2).rotation * dice.turn(1.5f);
                 constrain(quick);
             }
+            if (is_limited && dice.one_in(2)) {  // beside the limits, as rounding leaves a clip's rotations, or outside
+                const float angle = dice.one_in(2) ? 5e-7f : 1.0f;
+                for (const std::uint32_t joint : {1u, 2u, 3u})
+                    test::local_of(quick, joint)->rotation = quick.local(joint).rotation * dice.turn(angle);
+            }
             const glm::vec3 near(quick.model_space()[2][3]);
             if (dice.one_in(2)) test::local_of(quick, 0);  // as if it had changed
             Pose general(quick);
@@ -159,13 +165,13 @@ TEST(IkQuick, TwoBonesComeOutAsByTheLongWay) {
 
 TEST(IkQuick, TwoBonesInsideTheirLimitsToo) {
     const Count count = compare(0, true);
-    EXPECT_GT(count.quick, count.all / 20);
+    EXPECT_GT(count.quick, count.all / 6);
     EXPECT_LT(count.quick, count.all);
 }
 
 TEST(IkQuick, ElbowsThatSwingMostlyAboutOneAxisAndTwistToo) {
     const Count count = compare(0, true, false);
-    EXPECT_GT(count.quick, count.all / 20);
+    EXPECT_GT(count.quick, count.all / 5);
     EXPECT_LT(count.quick, count.all);
 }
 

@@ -50,6 +50,9 @@ public:
         return holds(local);
     }
 
+    /// Moves a unit rotation that is not inside the limits there; returns true if it was inside.
+    BENDY_ALWAYS_INLINE bool make_legal(Rotation& local) const { return !is_there() || make_legal_within(local); }
+
     enum class Side : std::uint8_t { inside, edge, outside };
     /// Returns on which side of the limits a unit rotation is; "edge" if rounding could decide.
     BENDY_ALWAYS_INLINE Side side(const glm::dquat& local) const {
@@ -62,15 +65,33 @@ private:
         return constraint_->model() != ConstraintModel::locked && !constraint_->has_soft_zone &&
                constraint_->stiffness == glm::dvec3(0.0);
     }
-    [[nodiscard]] Side find_side(const glm::dquat& local) const {
-        const Rotation rest_frame = rotation_of(*rest_frame_);
-        const Rotation R = conjugate(rest_frame) * rotation_of(local) * rotation_of(constraint_->frame);
+    /// A rotation in the constraint's frame, and that inside the limits.
+    struct Limited {
+        Rotation from, to;
+        double off;  ///< the angle between them, squared
+    };
+    static constexpr double kInside = 1e-7, kOutside = 2e-6;  // radians
+
+    [[nodiscard]] Limited limited(const Rotation& local) const {
+        const Rotation R = conjugate(rotation_of(*rest_frame_)) * local * rotation_of(constraint_->frame);
         const Rotation legal = rotation_of(quick_legal_rotation(*constraint_, constraint_->shape, glm_of(R)));
         const Rotation by = conjugate(legal) * R;
-        const double off = 4.0 * (by.x * by.x + by.y * by.y + by.z * by.z);  // angle squared
-        constexpr double kInside = 1e-7, kOutside = 2e-6;
+        return {R, legal, 4.0 * (by.x * by.x + by.y * by.y + by.z * by.z)};
+    }
+    [[nodiscard]] Side find_side(const glm::dquat& local) const {
+        const double off = limited(rotation_of(local)).off;
         if (off < kInside * kInside) return Side::inside;
         return off > kOutside * kOutside ? Side::outside : Side::edge;
+    }
+    [[nodiscard]] bool make_legal_within(Rotation& local) const {
+        auto [from, to, off] = limited(local);
+        if (off < kInside * kInside) return true;
+        // Nearly all of a clip's rotations of a hinge are beside its axis by rounding: any way inside is the nearest.
+        if (off > kOutside * kOutside)
+            to = rotation_of(nearest_rotation(*constraint_, constraint_->shape, glm_of(from)));
+        local = rotation_of(*rest_frame_) * to * conjugate(rotation_of(constraint_->frame));
+        local = local * (1.0 / root(squared(local)));
+        return false;
     }
 
     const Constraint* constraint_ = nullptr;
@@ -141,6 +162,7 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
     }
     state.set_rotation(chain.record.start, glm::quat(upper));
     state.set_rotation(model.parents[chain.record.effector], glm::quat(glm_of(reach.lower)));
+    if (limits.are_there()) make_end_legal(chain, pose, options);
     return ReachResult{ReachStatus::reached, static_cast<float>(distance), 0.0f, 1};
 }
 
@@ -231,11 +253,12 @@ bool gather_limb(const Chain& chain, const ReachTarget& target, Pose& pose, cons
     const auto put_flag = [number](double(&to)[1][count], bool flag) { to[0][number] = flag ? 1.0 : 0.0; };
     bool is_fixed = false, prefers_back = false;
     glm::dvec3 axis(0.0);
+    Rotation upper = rotation_of(first.rotation), lower = rotation_of(second.rotation);
+    const Pole pole = find_pole(chain, state, options);
     if (limits.are_there()) {
-        Rotation upper = rotation_of(first.rotation), lower = rotation_of(second.rotation);
-        const bool is_legal = normalize_local(upper) && normalize_local(lower) && limits.upper.holds(glm_of(upper)) &&
-                              limits.lower.holds(glm_of(lower)) && limits.end.holds(glm_of(end));
-        if (!is_legal) return false;
+        if (!normalize_local(upper) || !normalize_local(lower)) return false;
+        if (!pole.is_there) limits.upper.make_legal(upper);  // with a pole, the result does not depend on it
+        limits.lower.make_legal(lower);
         axis = limits.lower.bend_axis(glm_of(lower));
         is_fixed = axis != glm::dvec3(0.0);
         prefers_back = limits.lower.prefers_back();
@@ -250,8 +273,8 @@ bool gather_limb(const Chain& chain, const ReachTarget& target, Pose& pose, cons
     put(base[2], limbs.base_z, number);
     put(base[3], limbs.base_origin, number);
     put(target.position, limbs.target, number);
-    put(first.rotation, limbs.upper, number);
-    put(second.rotation, limbs.lower, number);
+    put(glm_of(upper), limbs.upper, number);
+    put(glm_of(lower), limbs.lower, number);
     put(first.translation, limbs.origin, number);
     put(second.translation, limbs.middle, number);
     put(tip.translation, limbs.tip, number);
@@ -259,7 +282,6 @@ bool gather_limb(const Chain& chain, const ReachTarget& target, Pose& pose, cons
     put(second.scale, limbs.lower_scale, number);
     limbs.same_scale[0][number] = same_scale(chain, options);
     limbs.tolerance[0][number] = tolerance_of(chain, options);
-    const Pole pole = find_pole(chain, state, options);
     put(pole.place, limbs.pole, number);
     put_flag(limbs.has_pole, pole.is_there);
     put_flag(limbs.is_pole_point, pole.is_point);
@@ -278,6 +300,15 @@ bool are_legal(const Chain& chain, const Pose& pose, const ReachOptions& options
                const glm::dquat& lower) {
     const one_limb::LimbLimits limits(*PoseState::of(pose).data, chain, options);
     return limits.lower.holds(lower) && limits.upper.holds(upper);
+}
+
+void make_end_legal(const Chain& chain, Pose& pose, const ReachOptions& options) {
+    PoseState& state = PoseState::of(pose);
+    const std::uint32_t joint = chain.record.effector;
+    one_limb::Rotation end = one_limb::rotation_of(state.local_of(joint).rotation);
+    one_limb::normalize_local(end);
+    if (!one_limb::LinkConstraint(*state.data, joint, options).make_legal(end))
+        state.set_rotation(joint, glm::quat(one_limb::glm_of(end)));
 }
 
 bool is_plain_limb(const Chain& chain, const ReachTarget& target, const Pose& pose, const ReachOptions& options) {

@@ -32,6 +32,9 @@ extern template bool gather_limb(const Chain&, const ReachTarget&, Pose&, const 
 bool are_legal(const Chain& chain, const Pose& pose, const ReachOptions& options, const glm::dquat& upper,
                const glm::dquat& lower);
 
+/// Moves such a chain's effector inside its limits, as the other solvers do.
+void make_end_legal(const Chain& chain, Pose& pose, const ReachOptions& options);
+
 /// Reaches with a chain that has no fast path, for a target with finite numbers.
 ///
 /// Returns nothing, and leaves the pose unchanged, if a number in the pose, the chain or the target is not finite.

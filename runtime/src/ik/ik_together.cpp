@@ -88,6 +88,7 @@ private:
         PoseState& state = PoseState::of(pose_);
         state.set_rotation(chain->record.start, glm::quat(upper));
         state.set_rotation(state.data->parents[chain->record.effector], glm::quat(lower));
+        if (has_limits) make_end_legal(*chain, pose_, options);
         note(limbs_[limb].number, ReachResult{ReachStatus::reached, static_cast<float>(distance), 0.0f, 1});
         return true;
     }
