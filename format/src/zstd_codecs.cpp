@@ -49,11 +49,11 @@ ZSTD_DCtx* decompressor() {
 }
 
 /// As above: its tables would be allocated anew for each frame.
-ZSTD_CCtx* compressor() {
+std::unique_ptr<ZSTD_CCtx, Free>& compressor() {
     thread_local std::unique_ptr<ZSTD_CCtx, Free> context;
     if (context == nullptr) context.reset(ZSTD_createCCtx());
     if (context == nullptr) fail_as_allocation();
-    return context.get();
+    return context;
 }
 
 }  // namespace
@@ -61,9 +61,11 @@ ZSTD_CCtx* compressor() {
 bool put_zstd(Bytes bytes, std::vector<std::byte>& out) {
     const std::size_t at = out.size();
     out.resize(at + ZSTD_compressBound(bytes.size()));
-    const int level = bytes.size() > kLong ? kLongLevel : kZstdLevel;
-    const std::size_t size =
-        ZSTD_compressCCtx(compressor(), out.data() + at, out.size() - at, bytes.data(), bytes.size(), level);
+    const bool is_long = bytes.size() > kLong;
+    auto& context = compressor();
+    const std::size_t size = ZSTD_compressCCtx(context.get(), out.data() + at, out.size() - at, bytes.data(),
+                                               bytes.size(), is_long ? kLongLevel : kZstdLevel);
+    if (is_long) context.reset();  // its tables are as large as the frame
     if (!is_good(size)) return false;
     out.resize(at + size);
     return true;

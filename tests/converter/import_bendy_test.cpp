@@ -48,6 +48,29 @@ std::filesystem::path folder() {
     return path;
 }
 
+TEST(ImportBendy, ThePartsThatMoveAreTheSameWithoutTheOthers) {
+    const Buffer file = bendy::test::sample_file();
+    Report report;
+    const Scene all = import_good(file, report);
+    const auto moved = import_bendy(file, report, MeshParts::motion);
+    ASSERT_TRUE(moved);
+    ASSERT_EQ(moved->meshes.size(), all.meshes.size());
+    for (std::size_t number = 0; number < all.meshes.size(); ++number) {
+        const Mesh& mesh = moved->meshes[number];
+        EXPECT_EQ(mesh.positions, all.meshes[number].positions);
+        EXPECT_EQ(mesh.bones, all.meshes[number].bones);
+        EXPECT_EQ(mesh.weights, all.meshes[number].weights);
+        EXPECT_EQ(mesh.joint, all.meshes[number].joint);
+        ASSERT_EQ(mesh.targets.size(), all.meshes[number].targets.size());
+        for (std::size_t t = 0; t < mesh.targets.size(); ++t) {
+            EXPECT_EQ(mesh.targets[t].positions, all.meshes[number].targets[t].positions);
+            EXPECT_TRUE(mesh.targets[t].normals.empty());
+        }
+        EXPECT_TRUE(mesh.normals.empty() && mesh.submeshes.empty() && mesh.texture_coords.empty());
+    }
+    EXPECT_FALSE(all.meshes[0].submeshes.empty());
+}
+
 TEST(ImportBendy, EveryKindOfChunkComesBack) {
     const Buffer file = bendy::test::sample_file();
     Report report;

@@ -6,6 +6,7 @@
 #include "scene/frame_shapes.h"
 #include "scene/in_parallel.h"
 #include "scene/space.h"
+#include "scene/used_entries.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -15,6 +16,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -58,70 +60,68 @@ glm::dvec3 lengths_of(const glm::dmat3& m) {
 ///     sum w P p - sum w' Q p' = sum w (P - Q) p + sum (w - w') (Q - Q_0) p + sum (w - w') Q_0 p + sum w' Q (p - p')
 /// Each of the four terms is bounded by constants of the vertex and of the bones. Vertices are in a tree of boxes, so
 /// that a bound passes over many of them.
-class MeshPair {
+/// What does not depend on the pose:
+class PairPlan {
 public:
-    MeshPair(const Mesh& exact, const Mesh& decoded, const std::vector<std::uint32_t>* map)
-        : exact_(exact, used_entries(exact, decoded)), decoded_(decoded, used_entries(decoded, exact)), map_(map) {
-        touched_.resize(exact_.size());
-        std::vector<bool> touched_there(decoded_.size());
-        exact_.mark_touched(touched_);
-        decoded_.mark_touched(touched_there);
-        for (std::size_t vertex = 0; vertex < exact_.size(); ++vertex) {
+    /// The scenes must outlive the plan.
+    PairPlan(const Mesh& exact_mesh, const Mesh& decoded_mesh, const std::vector<std::uint32_t>* vertex_map)
+        : exact(exact_mesh, used_entries(exact_mesh, decoded_mesh)),
+          decoded(decoded_mesh, used_entries(decoded_mesh, exact_mesh)),
+          map(vertex_map) {
+        touched.resize(exact.size());
+        std::vector<bool> touched_there(decoded.size());
+        exact.mark_touched(touched);
+        decoded.mark_touched(touched_there);
+        for (std::size_t vertex = 0; vertex < exact.size(); ++vertex) {
             const std::uint32_t there = place_in_decoded(vertex);
-            if (there != kNone && touched_there[there]) touched_[vertex] = true;
+            if (there != kNone && touched_there[there]) touched[vertex] = true;
         }
-        has_bounds_ = exact_.joints() == decoded_.joints();
-        differences_.resize(exact_.size());
-        if (has_bounds_) find_differences();
+        has_bounds = exact.joints() == decoded.joints();
+        differences.resize(exact.size());
+        if (has_bounds) find_differences();
         find_nodes();
     }
 
-    /// Updates `worst` if a vertex of this pose is worse; returns whether it did.
-    bool measure(const EvaluatedPose& exact_pose, const EvaluatedPose& decoded_pose, std::uint32_t mesh,
-                 MeasuredError& worst) {
-        const bool moved_here = exact_.set_pose(exact_pose.joints, exact_pose.morph_weights[mesh]);
-        const bool moved_there = decoded_.set_pose(decoded_pose.joints, decoded_pose.morph_weights[mesh]);
-        if (!moved_here && !moved_there && is_measured_) return false;
-        is_measured_ = true;
-        const bool is_displaced = exact_.is_displaced() || decoded_.is_displaced();
-        if (has_bounds_) bound_bones();
-        bool has_risen = false;
-        const auto look_at = [&](std::uint32_t vertex) {
-            const double error = glm::distance(exact_.place(vertex), decoded_.place(place_in_decoded(vertex)));
-            if (error <= worst.metres) return;
-            worst.metres = or_infinite(error);
-            worst.mesh = mesh;
-            worst.vertex = vertex;
-            has_risen = true;
-        };
-        for (std::size_t number = 0; number < nodes_.size();) {
-            const Node& node = nodes_[number++];
-            const bool has_bounds = has_bounds_ && !(is_displaced && node.is_touched);
-            PoseBound bones;
-            if (has_bounds) {
-                bones = bound_of(node);
-                if (bound(node.worst_case, bones) <= worst.metres) {
-                    number = node.end;
-                    continue;
-                }
-            }
-            for (std::uint32_t at = node.first; at < node.first + node.count; ++at) {
-                const std::uint32_t vertex = vertices_[at];
-                if (!has_bounds || !(bound(differences_[vertex], bones) <= worst.metres)) look_at(vertex);
-            }
-        }
-        return has_risen;
-    }
-
-    /// Forces the next pose to be measured, even if it equals the last one.
-    void forget_pose() { is_measured_ = false; }
-
     [[nodiscard]] bool can_be_compared() const {
-        if (map_ == nullptr) return exact_.size() == decoded_.size();
-        return map_->size() == exact_.size() && std::all_of(map_->begin(), map_->end(), [&](std::uint32_t vertex) {
-                   return vertex == kNone || vertex < decoded_.size();
+        if (map == nullptr) return exact.size() == decoded.size();
+        return map->size() == exact.size() && std::all_of(map->begin(), map->end(), [&](std::uint32_t vertex) {
+                   return vertex == kNone || vertex < decoded.size();
                });
     }
+
+    /// How much a vertex's data differ between the two scenes: rounded up, since large meshes have many.
+    struct Difference {
+        float place = 0.0f;          // metres, in mesh space
+        float weights = 0.0f;        // sum of |w - w'|
+        float weight_sum = 0.0f;     // |sum of w - w'|
+        float exact_total = 0.0f;    // sum of w
+        float decoded_total = 0.0f;  // sum of w'
+    };
+
+    /// Vertices that the same bones move, in a box; its parts follow it.
+    struct Node {
+        std::uint32_t entries = 0;           // number of the list of palette entries
+        std::uint32_t first = 0, count = 0;  // of a box without parts: its vertices
+        std::uint32_t end = 0;               // index of the first node after its parts
+        glm::vec3 middle{0.0f};              // in mesh space
+        glm::vec3 half{0.0f};                // from the middle to the farthest corner, rounded up
+        Difference worst_case;
+        bool is_touched = false;  // some target displaces them
+    };
+    [[nodiscard]] std::uint32_t place_in_decoded(std::size_t vertex) const {
+        if (map != nullptr) return vertex < map->size() && (*map)[vertex] < decoded.size() ? (*map)[vertex] : kNone;
+        return vertex < decoded.size() ? static_cast<std::uint32_t>(vertex) : kNone;
+    }
+
+    MeshShape exact, decoded;
+    const std::vector<std::uint32_t>* map;
+    std::vector<bool> touched;  // by a target of either scene
+    bool has_bounds = false;
+    std::vector<std::vector<std::uint32_t>> entries;  // lists of palette entries, ascending
+    std::vector<Node> nodes;
+    std::vector<std::uint32_t> order;     // of the vertices that are compared, node by node
+    std::vector<Difference> differences;  // per vertex
+    std::vector<Box<glm::dvec3>> boxes;   // per bone: bounds of the vertices that it moves, in mesh space
 
 private:
     /// The palette entries that a mesh uses, or that the other mesh uses if both have the same palette.
@@ -132,15 +132,11 @@ private:
         return used;
     }
 
-    /// How much a vertex's data differ between the two scenes.
-    struct Difference {
-        double place = 0.0;          // metres, in mesh space
-        double weights = 0.0;        // sum of |w - w'|
-        double weight_sum = 0.0;     // |sum of w - w'|
-        double exact_total = 0.0;    // sum of w
-        double decoded_total = 0.0;  // sum of w'
-    };
-
+    static float rounded_up(double value) {
+        const auto near = static_cast<float>(or_infinite(value));
+        return near < value ? std::nextafter(near, std::numeric_limits<float>::infinity()) : near;
+    }
+    static void raise(float& most, float value) { most = std::max(most, value); }
     static void raise(Difference& most, const Difference& d) {
         raise(most.place, d.place);
         raise(most.weights, d.weights);
@@ -148,18 +144,161 @@ private:
         raise(most.exact_total, d.exact_total);
         raise(most.decoded_total, d.decoded_total);
     }
-    static void raise(double& most, double value) { converter::raise(most, value); }
 
-    /// Vertices that the same bones move, in a box; its parts follow it.
-    struct Node {
-        std::uint32_t entries = 0;           // number of the list of palette entries
-        std::uint32_t first = 0, count = 0;  // of a box without parts: its vertices
-        std::uint32_t end = 0;               // index of the first node after its parts
-        glm::dvec3 middle{0.0};              // in mesh space
-        glm::dvec3 half{0.0};                // from the middle to a corner
-        Difference worst_case;
-        bool is_touched = false;  // some target displaces them
-    };
+    void find_nodes() {
+        std::map<std::pair<bool, std::vector<std::uint32_t>>, std::vector<std::uint32_t>> groups;
+        auto last = groups.end();  // neighbours often are in the same group
+        std::pair<bool, std::vector<std::uint32_t>> key;
+        for (std::uint32_t vertex = 0; vertex < exact.size(); ++vertex) {
+            const std::uint32_t there = place_in_decoded(vertex);
+            if (there == kNone) continue;
+            key.first = touched[vertex];
+            key.second.clear();
+            const auto add = [&](std::uint32_t entry, float) { key.second.push_back(entry); };
+            exact.for_each_influence(vertex, add);
+            decoded.for_each_influence(there, add);
+            std::sort(key.second.begin(), key.second.end());
+            key.second.erase(std::unique(key.second.begin(), key.second.end()), key.second.end());
+            if (last == groups.end() || last->first != key) last = groups.try_emplace(key).first;
+            last->second.push_back(vertex);
+        }
+        std::size_t most_nodes = groups.size();  // a box has at least half of kMostVertices, and as many parts as boxes
+        for (const auto& group : groups) most_nodes += 2 * group.second.size() / (kMostVertices / 2);
+        nodes.reserve(most_nodes);
+        order.reserve(exact.size());
+        for (auto& [bones, vertices] : groups) {
+            entries.push_back(bones.second);
+            add_nodes(vertices, bones.first);
+        }
+    }
+
+    static constexpr std::size_t kMostVertices = 8;  // of a box without parts
+
+    /// Splits the vertices across their longest side, until each box has few.
+    void add_nodes(std::span<std::uint32_t> all, bool is_touched) {
+        struct Open {
+            std::span<std::uint32_t> vertices;
+            std::size_t closes = 0;  // the node that ends here; vertices are empty
+        };
+        std::vector<Open> open{{all, 0}};
+        while (!open.empty()) {
+            const auto [vertices, closes] = open.back();
+            open.pop_back();
+            if (vertices.empty()) {
+                nodes[closes].end = static_cast<std::uint32_t>(nodes.size());
+                continue;
+            }
+            Box<glm::dvec3> box;
+            for (const std::uint32_t vertex : vertices) box.add(exact.base(vertex));
+            const glm::dvec3 size = box.high - box.low;
+            const int larger = size.y > size.x ? 1 : 0;
+            const int axis = size.z > size[larger] ? 2 : larger;
+            Node& node = nodes.emplace_back();
+            node.entries = static_cast<std::uint32_t>(entries.size() - 1);
+            node.middle = glm::vec3(0.5 * (box.low + box.high));
+            for (int c = 0; c < 3; ++c) {
+                const double middle = node.middle[c];
+                node.half[c] = rounded_up(std::max(box.high[c] - middle, middle - box.low[c]));
+            }
+            node.is_touched = is_touched;
+            node.end = static_cast<std::uint32_t>(nodes.size());
+            for (const std::uint32_t vertex : vertices) raise(node.worst_case, differences[vertex]);
+            if (vertices.size() <= kMostVertices || !(size[axis] > 0.0)) {
+                std::sort(vertices.begin(), vertices.end());  // nth_element's order differs between libraries
+                node.first = static_cast<std::uint32_t>(order.size());
+                node.count = static_cast<std::uint32_t>(vertices.size());
+                order.insert(order.end(), vertices.begin(), vertices.end());
+                continue;
+            }
+            const std::size_t half = vertices.size() / 2;
+            std::nth_element(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(half), vertices.end(),
+                             [&](std::uint32_t a, std::uint32_t b) {
+                                 return std::pair(or_infinite(exact.base(a)[axis]), a) <
+                                        std::pair(or_infinite(exact.base(b)[axis]), b);
+                             });
+            open.push_back({{}, nodes.size() - 1});
+            open.push_back({vertices.subspan(half), 0});
+            open.push_back({vertices.first(half), 0});
+        }
+    }
+
+    void find_differences() {
+        boxes.resize(exact.joints().size());
+        std::vector<double> change(boxes.size(), 0.0);
+        for (std::size_t vertex = 0; vertex < exact.size(); ++vertex) {
+            const std::uint32_t there = place_in_decoded(vertex);
+            if (there == kNone) continue;
+            double weights = 0.0, exact_total = 0.0, decoded_total = 0.0;
+            exact.for_each_influence(vertex, [&](std::uint32_t entry, float weight) {
+                change[entry] += weight;
+                exact_total += weight;
+                boxes[entry].add(exact.base(vertex));
+            });
+            decoded.for_each_influence(there, [&](std::uint32_t entry, float weight) {
+                change[entry] -= weight;
+                decoded_total += weight;
+                boxes[entry].add(exact.base(vertex));
+            });
+            const auto take = [&](std::uint32_t entry, float) {
+                weights += std::abs(std::exchange(change[entry], 0.0));
+            };
+            exact.for_each_influence(vertex, take);
+            decoded.for_each_influence(there, take);
+            differences[vertex] = {rounded_up(glm::distance(exact.base(vertex), decoded.base(there))),
+                                   rounded_up(weights), rounded_up(std::abs(exact_total - decoded_total)),
+                                   rounded_up(exact_total), rounded_up(decoded_total)};
+        }
+    }
+};
+
+/// A pair in a pose.
+class MeshPair {
+public:
+    /// \param plan  must outlive the pair
+    explicit MeshPair(const PairPlan& plan)
+        : plan_(&plan), exact_(plan.exact), decoded_(plan.decoded), bones_(plan.boxes.size()) {}
+
+    /// Updates `worst` if a vertex of this pose is worse; returns whether it did.
+    bool measure(const EvaluatedPose& exact_pose, const EvaluatedPose& decoded_pose, std::uint32_t mesh,
+                 MeasuredError& worst) {
+        const bool moved_here = exact_.set_pose(exact_pose.joints, exact_pose.morph_weights[mesh]);
+        const bool moved_there = decoded_.set_pose(decoded_pose.joints, decoded_pose.morph_weights[mesh]);
+        if (!moved_here && !moved_there && is_measured_) return false;
+        is_measured_ = true;
+        const bool is_displaced = exact_.is_displaced() || decoded_.is_displaced();
+        if (plan_->has_bounds) bound_bones();
+        bool has_risen = false;
+        const auto look_at = [&](std::uint32_t vertex) {
+            const double error = glm::distance(exact_.place(vertex), decoded_.place(plan_->place_in_decoded(vertex)));
+            if (error <= worst.metres) return;
+            worst.metres = or_infinite(error);
+            worst.mesh = mesh;
+            worst.vertex = vertex;
+            has_risen = true;
+        };
+        for (std::size_t number = 0; number < plan_->nodes.size();) {
+            const PairPlan::Node& node = plan_->nodes[number++];
+            const bool has_bounds = plan_->has_bounds && !(is_displaced && node.is_touched);
+            PoseBound bones;
+            if (has_bounds) {
+                bones = bound_of(node);
+                if (bound(node.worst_case, bones) <= worst.metres) {
+                    number = node.end;
+                    continue;
+                }
+            }
+            for (std::uint32_t at = node.first; at < node.first + node.count; ++at) {
+                const std::uint32_t vertex = plan_->order[at];
+                if (!has_bounds || !(bound(plan_->differences[vertex], bones) <= worst.metres)) look_at(vertex);
+            }
+        }
+        return has_risen;
+    }
+
+    /// Forces the next pose to be measured, even if it equals the last one.
+    void forget_pose() { is_measured_ = false; }
+
+private:
     /// A bone in this pose.
     struct Bone {
         Affine difference;      // exact minus decoded
@@ -176,113 +315,10 @@ private:
         double distance = 0.0;  // metres from the origin
     };
 
-    [[nodiscard]] std::uint32_t place_in_decoded(std::size_t vertex) const {
-        if (map_ != nullptr)
-            return vertex < map_->size() && (*map_)[vertex] < decoded_.size() ? (*map_)[vertex] : kNone;
-        return vertex < decoded_.size() ? static_cast<std::uint32_t>(vertex) : kNone;
-    }
-
-    void find_nodes() {
-        std::map<std::pair<bool, std::vector<std::uint32_t>>, std::vector<std::uint32_t>> groups;
-        auto last = groups.end();  // neighbours often are in the same group
-        std::pair<bool, std::vector<std::uint32_t>> key;
-        for (std::uint32_t vertex = 0; vertex < exact_.size(); ++vertex) {
-            const std::uint32_t there = place_in_decoded(vertex);
-            if (there == kNone) continue;
-            key.first = touched_[vertex];
-            key.second.clear();
-            for (const Influence& influence : exact_.influences(vertex)) key.second.push_back(influence.entry);
-            for (const Influence& influence : decoded_.influences(there)) key.second.push_back(influence.entry);
-            std::sort(key.second.begin(), key.second.end());
-            key.second.erase(std::unique(key.second.begin(), key.second.end()), key.second.end());
-            if (last == groups.end() || last->first != key) last = groups.try_emplace(key).first;
-            last->second.push_back(vertex);
-        }
-        for (auto& [bones, vertices] : groups) {
-            entries_.push_back(bones.second);
-            add_nodes(vertices, bones.first);
-        }
-    }
-
-    /// Splits the vertices across their longest side, until each box has few.
-    void add_nodes(std::span<std::uint32_t> all, bool is_touched) {
-        constexpr std::size_t kMost = 8;
-        struct Open {
-            std::span<std::uint32_t> vertices;
-            std::size_t closes = 0;  // the node that ends here; vertices are empty
-        };
-        std::vector<Open> open{{all, 0}};
-        while (!open.empty()) {
-            const auto [vertices, closes] = open.back();
-            open.pop_back();
-            if (vertices.empty()) {
-                nodes_[closes].end = static_cast<std::uint32_t>(nodes_.size());
-                continue;
-            }
-            Box<glm::dvec3> box;
-            for (const std::uint32_t vertex : vertices) box.add(exact_.base(vertex));
-            const glm::dvec3 size = box.high - box.low;
-            const int larger = size.y > size.x ? 1 : 0;
-            const int axis = size.z > size[larger] ? 2 : larger;
-            Node& node = nodes_.emplace_back();
-            node.entries = static_cast<std::uint32_t>(entries_.size() - 1);
-            node.middle = 0.5 * (box.low + box.high);
-            node.half = 0.5 * size;
-            node.is_touched = is_touched;
-            node.end = static_cast<std::uint32_t>(nodes_.size());
-            for (const std::uint32_t vertex : vertices) raise(node.worst_case, differences_[vertex]);
-            if (vertices.size() <= kMost || !(size[axis] > 0.0)) {
-                std::sort(vertices.begin(), vertices.end());  // nth_element's order differs between libraries
-                node.first = static_cast<std::uint32_t>(vertices_.size());
-                node.count = static_cast<std::uint32_t>(vertices.size());
-                vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
-                continue;
-            }
-            const std::size_t half = vertices.size() / 2;
-            std::nth_element(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(half), vertices.end(),
-                             [&](std::uint32_t a, std::uint32_t b) {
-                                 return std::pair(or_infinite(exact_.base(a)[axis]), a) <
-                                        std::pair(or_infinite(exact_.base(b)[axis]), b);
-                             });
-            open.push_back({{}, nodes_.size() - 1});
-            open.push_back({vertices.subspan(half), 0});
-            open.push_back({vertices.first(half), 0});
-        }
-    }
-
-    void find_differences() {
-        boxes_.resize(exact_.joints().size());
-        bones_.resize(boxes_.size());
-        std::vector<double> change(boxes_.size(), 0.0);
-        for (std::size_t vertex = 0; vertex < exact_.size(); ++vertex) {
-            const std::uint32_t there = place_in_decoded(vertex);
-            if (there == kNone) continue;
-            Difference& d = differences_[vertex];
-            d.place = glm::distance(exact_.base(vertex), decoded_.base(there));
-            for (const Influence& influence : exact_.influences(vertex)) {
-                change[influence.entry] += influence.weight;
-                d.exact_total += influence.weight;
-                boxes_[influence.entry].add(exact_.base(vertex));
-            }
-            for (const Influence& influence : decoded_.influences(there)) {
-                change[influence.entry] -= influence.weight;
-                d.decoded_total += influence.weight;
-                boxes_[influence.entry].add(exact_.base(vertex));
-            }
-            for (const auto& list : {exact_.influences(vertex), decoded_.influences(there)}) {
-                for (const Influence& influence : list) {
-                    d.weights += std::abs(change[influence.entry]);
-                    change[influence.entry] = 0.0;
-                }
-            }
-            d.weight_sum = std::abs(d.exact_total - d.decoded_total);
-        }
-    }
-
     /// Computes the bones' part of the bounds for this pose.
     void bound_bones() {
-        for (std::size_t number = 0; number < boxes_.size(); ++number) {
-            const Box<glm::dvec3>& box = boxes_[number];
+        for (std::size_t number = 0; number < plan_->boxes.size(); ++number) {
+            const Box<glm::dvec3>& box = plan_->boxes[number];
             if (box.is_empty()) continue;
             const Affine& p = exact_.matrices()[number];
             const Affine& q = decoded_.matrices()[number];
@@ -297,42 +333,37 @@ private:
 
     /// A point of the box is its middle plus at most `half` along each axis, which a matrix makes as long as its
     /// columns.
-    [[nodiscard]] PoseBound bound_of(const Node& node) const {
+    [[nodiscard]] PoseBound bound_of(const PairPlan::Node& node) const {
         PoseBound most;
-        const std::vector<std::uint32_t>& entries = entries_[node.entries];
+        const glm::dvec3 middle(node.middle), half(node.half);
+        const std::vector<std::uint32_t>& entries = plan_->entries[node.entries];
         for (const std::uint32_t entry : entries) {
             const Bone& bone = bones_[entry];
-            raise(most.difference, glm::length(bone.difference(node.middle)) + glm::dot(bone.lengths, node.half));
+            raise(most.difference, glm::length(bone.difference(middle)) + glm::dot(bone.lengths, half));
             raise(most.stretch, bone.stretch);
             raise(most.distance, bone.distance);
         }
         if (!(node.worst_case.weights > 0.0) || entries.empty()) return most;
         const Affine& first = decoded_.matrices()[entries[0]];
-        const glm::dvec3 place = first(node.middle);
+        const glm::dvec3 place = first(middle);
         for (std::size_t k = 1; k < entries.size(); ++k) {
             const Affine& other = decoded_.matrices()[entries[k]];
-            raise(most.spread, glm::distance(other(node.middle), place) +
-                                   glm::dot(lengths_of(other.linear - first.linear), node.half));
+            raise(most.spread,
+                  glm::distance(other(middle), place) + glm::dot(lengths_of(other.linear - first.linear), half));
         }
         return most;
     }
 
-    [[nodiscard]] static double bound(const Difference& d, const PoseBound& bones) {
+    [[nodiscard]] static double bound(const PairPlan::Difference& d, const PoseBound& bones) {
         constexpr double kRounding = 1.0 + 1e-9;
-        return kRounding * (d.exact_total * bones.difference + d.decoded_total * bones.stretch * d.place +
-                            d.weights * bones.spread + d.weight_sum * bones.distance);
+        return kRounding *
+               (double{d.exact_total} * bones.difference + double{d.decoded_total} * bones.stretch * d.place +
+                d.weights * bones.spread + d.weight_sum * bones.distance);
     }
 
+    const PairPlan* plan_;
     PosableMesh exact_, decoded_;
-    const std::vector<std::uint32_t>* map_;
-    std::vector<bool> touched_;  // by a target of either scene
     bool is_measured_ = false;
-    bool has_bounds_ = false;
-    std::vector<std::vector<std::uint32_t>> entries_;  // lists of palette entries, ascending
-    std::vector<Node> nodes_;
-    std::vector<std::uint32_t> vertices_;  // those that are compared, node by node
-    std::vector<Difference> differences_;  // per vertex
-    std::vector<Box<glm::dvec3>> boxes_;   // per bone: bounds of the vertices that it moves, in mesh space
     std::vector<Bone> bones_;
 };
 
@@ -396,17 +427,21 @@ public:
     Comparison(const Scene& exact, const Scene& decoded, const MeasureOptions& options)
         : exact_(exact), decoded_(decoded), shell_(options.shell), limit_(options.limit) {
         const VertexMaps maps = options.vertex_maps;
+        auto plans = std::make_shared<std::vector<PairPlan>>();
+        plans->reserve(exact.meshes.size());
         pairs_.reserve(exact.meshes.size());
         for (std::size_t mesh = 0; mesh < exact.meshes.size(); ++mesh) {
             const bool is_mapped = mesh < maps.size() && !maps[mesh].empty();
-            pairs_.emplace_back(exact.meshes[mesh], decoded.meshes[mesh], is_mapped ? &maps[mesh] : nullptr);
+            plans->emplace_back(exact.meshes[mesh], decoded.meshes[mesh], is_mapped ? &maps[mesh] : nullptr);
+            pairs_.emplace_back(plans->back());
         }
+        plans_ = std::move(plans);
         loose_ = loose_joints(exact);
         points_ = points_of_joints(exact);
     }
 
     [[nodiscard]] bool is_possible() const {
-        return std::all_of(pairs_.begin(), pairs_.end(), [](const MeshPair& pair) { return pair.can_be_compared(); });
+        return std::all_of(plans_->begin(), plans_->end(), [](const PairPlan& plan) { return plan.can_be_compared(); });
     }
 
     void measure_rest() {
@@ -481,6 +516,7 @@ private:
 
     const Scene& exact_;
     const Scene& decoded_;
+    std::shared_ptr<const std::vector<PairPlan>> plans_;  // of all threads
     std::vector<MeshPair> pairs_;
     std::vector<std::uint32_t> loose_;
     std::vector<glm::dvec3> points_;  // per loose joint, see points_of_joints
@@ -492,14 +528,13 @@ private:
     MeasuredError worst_;
 };
 
-/// At most one per clip; fewer for large meshes, since every thread copies them.
+/// At most one per clip; fewer for large meshes with targets, since every thread has their positions.
 std::size_t most_threads(const Scene& scene, std::size_t clips) {
-    constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
-    constexpr std::size_t kVertexBytes = 512;  // in both scenes, roughly
-    constexpr std::size_t kShiftBytes = 64;    // per vertex that a target displaces
+    constexpr std::size_t kMostBytes = std::size_t{1} << 28U;
     std::size_t bytes = 1;
-    for (const Mesh& mesh : scene.meshes)
-        bytes += mesh.positions.size() * (kVertexBytes + kShiftBytes * mesh.targets.size());
+    for (const Mesh& mesh : scene.meshes) {
+        if (!mesh.targets.empty()) bytes += 2 * sizeof(glm::dvec3) * mesh.positions.size();  // in both scenes
+    }
     return std::max<std::size_t>(std::min(clips, kMostBytes / bytes), 1);
 }
 

@@ -16,54 +16,27 @@
 
 namespace bendy::converter {
 
-/// A bone of a vertex.
-struct Influence {
-    std::uint32_t entry = 0;  ///< index among the used entries of the palette
-    float weight = 0.0f;
-};
-
 /// A vertex's displacement by a morph target.
 struct Displacement {
     std::uint32_t vertex = 0;
     glm::dvec3 by{0.0};
 };
 
-/// Marks the palette entries that a mesh's vertices use.
-inline void mark_used(const Mesh& mesh, std::vector<bool>& used) {
-    used.resize(mesh.palette.joints.size());
-    for (std::size_t at = 0; at < mesh.weights.size(); ++at) {
-        if (mesh.weights[at] != 0.0f) used[mesh.bones[at]] = true;
-    }
-}
-
-/// A mesh prepared for repeated posing. A rigid mesh gets a single bone.
-class PosableMesh {
+/// What the poses of a mesh share. A rigid mesh gets a single bone.
+class MeshShape {
 public:
+    /// \param mesh  must outlive the shape
     /// \param used  palette entries to keep, see mark_used
-    PosableMesh(const Mesh& mesh, const std::vector<bool>& used)
-        : base_(mesh.positions), weights_(mesh.targets.size(), 0.0) {
-        if (!mesh.targets.empty()) positions_.assign(base_.begin(), base_.end());
-        std::vector<std::uint32_t> place(used.size(), kNone);  // per palette entry: its index among the used ones
+    MeshShape(const Mesh& mesh, const std::vector<bool>& used) : mesh_(&mesh), place_(used.size(), kNone) {
         if (mesh.influences == 0) {
             joints_ = {mesh.joint};
             inverse_bind_ = {glm::dmat4(1.0)};
-        } else {
-            for (std::size_t entry = 0; entry < used.size(); ++entry) {
-                if (!used[entry]) continue;
-                place[entry] = static_cast<std::uint32_t>(joints_.size());
-                joints_.push_back(mesh.palette.joints[entry]);
-                inverse_bind_.emplace_back(mesh.palette.inverse_bind[entry]);
-            }
         }
-        first_.reserve(base_.size() + 1);
-        first_.push_back(0);
-        for (std::size_t vertex = 0; vertex < base_.size(); ++vertex) {
-            if (mesh.influences == 0) influences_.push_back({0, 1.0f});
-            for (std::size_t k = 0; k < mesh.influences; ++k) {
-                const std::size_t at = vertex * mesh.influences + k;
-                if (mesh.weights[at] != 0.0f) influences_.push_back({place[mesh.bones[at]], mesh.weights[at]});
-            }
-            first_.push_back(static_cast<std::uint32_t>(influences_.size()));
+        for (std::size_t entry = 0; entry < used.size(); ++entry) {
+            if (!used[entry]) continue;
+            place_[entry] = static_cast<std::uint32_t>(joints_.size());
+            joints_.push_back(mesh.palette.joints[entry]);
+            inverse_bind_.emplace_back(mesh.palette.inverse_bind[entry]);
         }
         for (const MorphTarget& target : mesh.targets) {
             std::vector<Displacement>& list = targets_.emplace_back();
@@ -72,15 +45,52 @@ public:
                 if (shift != glm::dvec3(0.0)) list.push_back({static_cast<std::uint32_t>(vertex), shift});
             }
         }
-        matrices_.resize(joints_.size());
+    }
+
+    [[nodiscard]] std::size_t size() const { return mesh_->positions.size(); }
+    [[nodiscard]] const std::vector<std::uint32_t>& joints() const { return joints_; }
+    [[nodiscard]] const std::vector<glm::dmat4>& inverse_bind() const { return inverse_bind_; }
+    [[nodiscard]] const std::vector<std::vector<Displacement>>& targets() const { return targets_; }
+    [[nodiscard]] std::span<const glm::vec3> positions() const { return mesh_->positions; }
+    [[nodiscard]] glm::dvec3 base(std::size_t vertex) const { return {mesh_->positions[vertex]}; }
+    /// Calls visit(entry, weight) for each bone that moves the vertex; `entry` is an index among the used ones.
+    template <class Visit>
+    void for_each_influence(std::size_t vertex, const Visit& visit) const {
+        if (mesh_->influences == 0) return visit(std::uint32_t{0}, 1.0f);
+        const std::size_t end = (vertex + 1) * mesh_->influences;
+        for (std::size_t at = vertex * mesh_->influences; at < end; ++at) {
+            if (mesh_->weights[at] != 0.0f) visit(place_[mesh_->bones[at]], mesh_->weights[at]);
+        }
+    }
+    void mark_touched(std::vector<bool>& touched) const {
+        for (const auto& target : targets_) {
+            for (const Displacement& d : target) touched[d.vertex] = true;
+        }
+    }
+
+private:
+    const Mesh* mesh_;
+    std::vector<std::uint32_t> place_;  // per palette entry: its index among the used ones
+    std::vector<std::uint32_t> joints_;
+    std::vector<glm::dmat4> inverse_bind_;
+    std::vector<std::vector<Displacement>> targets_;
+};
+
+/// A mesh in a pose.
+class PosableMesh {
+public:
+    /// \param shape  must outlive the mesh
+    explicit PosableMesh(const MeshShape& shape)
+        : shape_(&shape), matrices_(shape.joints().size()), weights_(shape.targets().size(), 0.0) {
+        if (!shape.targets().empty()) positions_.assign(shape.positions().begin(), shape.positions().end());
     }
 
     /// Sets a pose; false if nothing has changed since the last one.
     bool set_pose(const std::vector<glm::dmat4>& joints, const std::vector<double>& weights) {
         bool has_changed = false;
-        for (std::size_t entry = 0; entry < joints_.size(); ++entry) {
-            const std::uint32_t joint = joints_[entry];
-            const glm::dmat4& bind = inverse_bind_[entry];
+        for (std::size_t entry = 0; entry < matrices_.size(); ++entry) {
+            const std::uint32_t joint = shape_->joints()[entry];
+            const glm::dmat4& bind = shape_->inverse_bind()[entry];
             Affine matrix(bind);
             if (joint != kNone) {
                 const Affine place(joints[joint]);
@@ -92,51 +102,36 @@ public:
             matrices_[entry] = matrix;
         }
         if (weights == weights_) return has_changed;
-        for (std::size_t target = 0; target < targets_.size(); ++target) {
+        const auto& targets = shape_->targets();
+        for (std::size_t target = 0; target < targets.size(); ++target) {
             if (weights_[target] == 0.0) continue;
-            for (const Displacement& d : targets_[target]) positions_[d.vertex] = base(d.vertex);
+            for (const Displacement& d : targets[target]) positions_[d.vertex] = shape_->base(d.vertex);
         }
         weights_ = weights;
-        for (std::size_t target = 0; target < targets_.size(); ++target) {
+        for (std::size_t target = 0; target < targets.size(); ++target) {
             if (weights_[target] == 0.0) continue;
-            for (const Displacement& d : targets_[target]) positions_[d.vertex] += weights_[target] * d.by;
+            for (const Displacement& d : targets[target]) positions_[d.vertex] += weights_[target] * d.by;
         }
         return true;
     }
 
     [[nodiscard]] glm::dvec3 place(std::size_t vertex) const {
-        const glm::dvec3 position = positions_.empty() ? base(vertex) : positions_[vertex];
+        const glm::dvec3 position = positions_.empty() ? shape_->base(vertex) : positions_[vertex];
         glm::dvec3 sum(0.0);
-        for (const Influence& influence : influences(vertex))
-            sum += double{influence.weight} * matrices_[influence.entry](position);
+        shape_->for_each_influence(
+            vertex, [&](std::uint32_t entry, float weight) { sum += double{weight} * matrices_[entry](position); });
         return sum;
     }
 
-    [[nodiscard]] std::size_t size() const { return base_.size(); }
-    [[nodiscard]] const std::vector<std::uint32_t>& joints() const { return joints_; }
     [[nodiscard]] const std::vector<Affine>& matrices() const { return matrices_; }
-    [[nodiscard]] glm::dvec3 base(std::size_t vertex) const { return {base_[vertex]}; }
-    [[nodiscard]] std::span<const Influence> influences(std::size_t vertex) const {
-        return std::span(influences_).subspan(first_[vertex], first_[vertex + 1] - first_[vertex]);
-    }
     [[nodiscard]] bool is_displaced() const {
         return std::any_of(weights_.begin(), weights_.end(), [](double weight) { return weight != 0.0; });
     }
-    void mark_touched(std::vector<bool>& touched) const {
-        for (const auto& target : targets_) {
-            for (const Displacement& d : target) touched[d.vertex] = true;
-        }
-    }
 
 private:
-    std::vector<std::uint32_t> joints_;
-    std::vector<glm::dmat4> inverse_bind_;
+    const MeshShape* shape_;
     std::vector<Affine> matrices_;
-    std::vector<glm::vec3> base_;
     std::vector<glm::dvec3> positions_;  // displaced by targets; empty if there are none
-    std::vector<std::uint32_t> first_;
-    std::vector<Influence> influences_;
-    std::vector<std::vector<Displacement>> targets_;
     std::vector<double> weights_;
 };
 

@@ -6,6 +6,7 @@
 #include <bendy/format/result.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -104,7 +105,13 @@ bool is_bendy_file(const std::filesystem::path& file);
 /// again. Throws nothing.
 Result<Scene, ImportError> import_bendy(const std::filesystem::path& file, Report& report);
 
+/// What import_bendy reads of a mesh.
+enum class MeshParts : std::uint8_t {
+    all,
+    motion,  ///< what moves its vertices: no normals, tangents, other attributes, or polygons
+};
+
 /// As above, from memory; `bytes` must be 16-byte aligned.
-Result<Scene, ImportError> import_bendy(Bytes bytes, Report& report);
+Result<Scene, ImportError> import_bendy(Bytes bytes, Report& report, MeshParts parts = MeshParts::all);
 
 }  // namespace bendy::converter

@@ -50,14 +50,8 @@ double geometry_share_of(const Scene& scene) {
 std::vector<MeasuredError> measure(const Scene& exact, const CompactGeometry& geometry, Bytes bytes,
                                    std::span<const std::uint32_t> clips, MeasureOptions options) {
     Report unheard;
-    auto decoded = import_bendy(bytes, unheard);
+    auto decoded = import_bendy(bytes, unheard, MeshParts::motion);
     if (!decoded) throw std::bad_alloc();  // what was just written can be read, if there is memory for it
-    for (Mesh& mesh : decoded->meshes) {   // what moves no vertex is not measured, and large
-        mesh.normals = {};
-        mesh.tangents = {};
-        mesh.texture_coords = mesh.colours = mesh.attributes = {};
-        mesh.submeshes = {};
-    }
     std::vector<std::vector<std::uint32_t>> maps;
     maps.reserve(geometry.meshes.size());
     for (const CompactMesh& mesh : geometry.meshes) maps.push_back(mesh.vertex_of);

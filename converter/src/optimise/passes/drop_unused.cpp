@@ -3,9 +3,9 @@
 #include "optimise/passes/equal_vertices.h"
 #include "optimise/passes/mesh_order.h"
 #include "optimise/passes/mesh_streams.h"
-#include "optimise/posable_mesh.h"
 #include "scene/failure.h"
 #include "scene/json_text.h"
+#include "scene/used_entries.h"
 
 #include <algorithm>
 #include <cstddef>

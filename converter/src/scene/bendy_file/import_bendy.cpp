@@ -395,7 +395,7 @@ void import_textures(const ChunkTree& tree, const Document& document, Scene& sce
     }
 }
 
-Scene import(Bytes bytes, Report& report) {
+Scene import(Bytes bytes, Report& report, MeshParts parts) {
     Result<ChunkTree> tree = read_chunk_tree(bytes);
     if (!tree) fail({}, describe_with_place(tree.error(), bytes));
     Faults faults;
@@ -430,7 +430,7 @@ Scene import(Bytes bytes, Report& report) {
     import_chains(object, scene);
     import_textures(*tree, document, scene, report);
     import_materials(document, scene);
-    import_stored_meshes(*tree, object, budget, scene, report);
+    import_stored_meshes(*tree, object, parts, budget, scene, report);
     if (object.collapse) import_collapse(*object.collapse, scene);
     ClipImporter clips(*tree, object.skeleton, budget, report);
     for (const ClipView& clip : object.clips) scene.clips.push_back(clips.import(clip));
@@ -447,8 +447,8 @@ bool is_bendy_file(const std::filesystem::path& file) {
     return stream.read(id.data(), id.size()) && std::string_view(id.data(), id.size()) == "HEAD";
 }
 
-Result<Scene, ImportError> import_bendy(Bytes bytes, Report& report) {
-    return without_throwing<Scene>([&]() -> Result<Scene, ImportError> { return import(bytes, report); });
+Result<Scene, ImportError> import_bendy(Bytes bytes, Report& report, MeshParts parts) {
+    return without_throwing<Scene>([&]() -> Result<Scene, ImportError> { return import(bytes, report, parts); });
 }
 
 Result<Scene, ImportError> import_bendy(const std::filesystem::path& file, Report& report) {

@@ -34,8 +34,13 @@ std::vector<Vector> read_vectors(const StreamView& stream) {
 class StoredMeshImporter {
 public:
     StoredMeshImporter(const ChunkTree& tree, const MeshView& view, std::vector<const SubmeshView*> submeshes,
-                       Budget& budget, Report& report)
-        : tree_(tree), view_(view), polygons_(std::move(submeshes)), budget_(budget), report_(report) {}
+                       MeshParts parts, Budget& budget, Report& report)
+        : tree_(tree),
+          view_(view),
+          polygons_(std::move(submeshes)),
+          has_all_(parts == MeshParts::all),
+          budget_(budget),
+          report_(report) {}
 
     /// \param is_in_levels  it has a collapse sequence, which counts on the stored order
     Mesh import(bool is_in_levels) {
@@ -45,13 +50,13 @@ public:
         mesh_.joint = view_.joint;
         read_streams();
         read_targets();
-        read_parts();
+        if (has_all_) read_parts();
         if (view_.is_rigid()) {
             set_movers();
         } else {
             read_influences();
         }
-        check_order();
+        if (has_all_) check_order();
         if (!is_in_levels) restore_order();
         return std::move(mesh_);
     }
@@ -65,6 +70,7 @@ private:
     void read_streams() {
         take(view_.vertices, sizeof(glm::vec3) * 2 + sizeof(glm::vec4));
         mesh_.positions = read_vectors<glm::vec3>(view_.positions);
+        if (!has_all_) return;
         if (view_.normals) mesh_.normals = read_vectors<glm::vec3>(*view_.normals);
         if (view_.tangents) mesh_.tangents = read_vectors<glm::vec4>(*view_.tangents);
         for (const StreamView& stream : view_.texture_coords) mesh_.texture_coords.push_back(read_stream({}, stream));
@@ -123,13 +129,15 @@ private:
                 target.is_frame = true;
                 target.grid = grid_of(view.positions->boxes);
                 target.positions = read_shape(view, view.positions);
-                target.normals = read_shape(view, view.normals);
+                if (has_all_) target.normals = read_shape(view, view.normals);
                 mesh_.targets.push_back(std::move(target));
                 continue;
             }
             target.positions = read_displacements(view, view.positions);
-            target.normals = read_displacements(view, view.normals);
-            target.tangents = read_displacements(view, view.tangents);
+            if (has_all_) {
+                target.normals = read_displacements(view, view.normals);
+                target.tangents = read_displacements(view, view.tangents);
+            }
             mesh_.targets.push_back(std::move(target));
         }
     }
@@ -235,6 +243,7 @@ private:
     const ChunkTree& tree_;
     const MeshView& view_;
     std::vector<const SubmeshView*> polygons_;
+    bool has_all_;
     Budget& budget_;
     Report& report_;
     Mesh mesh_;
@@ -242,12 +251,12 @@ private:
 
 }  // namespace
 
-void import_stored_meshes(const ChunkTree& tree, const ObjectView& object, Budget& budget, Scene& scene,
-                          Report& report) {
+void import_stored_meshes(const ChunkTree& tree, const ObjectView& object, MeshParts parts, Budget& budget,
+                          Scene& scene, Report& report) {
     std::vector<std::vector<const SubmeshView*>> submeshes(object.meshes.size());
     for (const SubmeshView& range : object.skeleton.submeshes) submeshes[range.mesh].push_back(&range);
     for (std::size_t mesh = 0; mesh < object.meshes.size(); ++mesh) {
-        StoredMeshImporter importer(tree, object.meshes[mesh], std::move(submeshes[mesh]), budget, report);
+        StoredMeshImporter importer(tree, object.meshes[mesh], std::move(submeshes[mesh]), parts, budget, report);
         const bool is_in_levels =
             object.collapse && std::any_of(object.collapse->meshes.begin(), object.collapse->meshes.end(),
                                            [&](const MeshCollapseView& one) { return one.mesh == mesh; });
