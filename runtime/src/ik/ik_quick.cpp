@@ -177,10 +177,10 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
     Rotation rotation = rotation_of(transform.rotation);
     Rotation tip{turned_tip[0], turned_tip[1], turned_tip[2], turned_tip[3]};
     constexpr double kOdd = 1e4;  // of a squared length: invalid rotations are left to the general solver
-    const bool is_plain = normalize_local(rotation) && limit.is_plain() && !limit.is_hinge() &&
-                          limit.holds(glm_of(rotation)) && squared(tip) < kOdd && kOdd * squared(tip) > 1.0 &&
-                          normalize(tip);
+    const bool is_plain = normalize_local(rotation) && limit.is_plain() && !limit.is_hinge() && squared(tip) < kOdd &&
+                          kOdd * squared(tip) > 1.0 && normalize(tip);
     if (!is_plain) return std::nullopt;
+    limit.make_legal(rotation);
     const glm::dmat4 matrix = state.fresh_matrix(model.parents[joint]);
     const Space base{vector_of(matrix[0]), vector_of(matrix[1]), vector_of(matrix[2]), vector_of(matrix[3])};
     const Vector origin = vector_of(transform.translation);
