@@ -1,6 +1,7 @@
 #include "codec_parts.h"
 
 #include <bendy/format/packed_clip.h>
+#include <bendy/format/public.h>
 
 #include <algorithm>
 #include <array>
@@ -24,12 +25,11 @@ Word from_zigzag(Word number) {
     return (number >> 1) ^ (0u - (number & 1u));
 }
 
-/// Predicts number k of a component from those before it: as the last one, or by extrapolation.
-Word predict(unsigned predictor, std::span<const Word> numbers, std::size_t k) {
-    const Word last = numbers[k - 1];
+/// Predicts number k of a component from the three before it: as the last one, or by extrapolation.
+BENDY_ALWAYS_INLINE Word predict(unsigned predictor, std::size_t k, Word last, Word before, Word first) {
     if (predictor == 0 || k < 2) return last;
-    const Word rise = last - numbers[k - 2];
-    if (predictor == 2 && k >= 3) return last + 2 * rise - (numbers[k - 2] - numbers[k - 3]);
+    const Word rise = last - before;
+    if (predictor == 2 && k >= 3) return last + 2 * rise - (before - first);
     if (predictor == 3) return last + static_cast<Word>(static_cast<std::int32_t>(rise) >> 1);
     return last + rise;
 }
@@ -37,8 +37,13 @@ Word predict(unsigned predictor, std::span<const Word> numbers, std::size_t k) {
 std::vector<Word> residuals(unsigned predictor, std::span<const Word> numbers) {
     std::vector<Word> found;
     found.reserve(numbers.size());
-    for (std::size_t k = 1; k < numbers.size(); ++k)
-        found.push_back(to_zigzag(numbers[k] - predict(predictor, numbers, k)));
+    Word last = numbers[0], before = 0, first = 0;
+    for (std::size_t k = 1; k < numbers.size(); ++k) {
+        found.push_back(to_zigzag(numbers[k] - predict(predictor, k, last, before, first)));
+        first = before;
+        before = last;
+        last = numbers[k];
+    }
     return found;
 }
 
@@ -257,20 +262,29 @@ private:
         for (std::size_t k = 0; k < heads.size(); ++k) {
             if (std::to_integer<unsigned>(heads[k]) >> 2 <= plane) continue;
             const Bytes bytes = take(samples_.frames - 1);
-            for (std::size_t f = 0; f < bytes.size(); ++f) {
-                const Word number = static_cast<Word>(numbers_of_[k][f + 1]) | std::to_integer<Word>(bytes[f])
-                                                                                   << (8 * plane);
-                numbers_of_[k][f + 1] = static_cast<std::int32_t>(number);
-            }
+            std::int32_t* const numbers = numbers_of_[k].data() + 1;
+            for (std::size_t f = 0; f < bytes.size(); ++f)
+                numbers[f] |= static_cast<std::int32_t>(std::to_integer<Word>(bytes[f]) << (8 * plane));
         }
     }
 
     /// Turns residuals into numbers.
-    void undo(unsigned predictor, std::span<std::int32_t> numbers) {
-        words_.assign(numbers.begin(), numbers.end());
-        for (std::size_t k = 1; k < words_.size(); ++k)
-            words_[k] = from_zigzag(words_[k]) + predict(predictor, words_, k);
-        for (std::size_t k = 0; k < words_.size(); ++k) numbers[k] = static_cast<std::int32_t>(words_[k]);
+    static void undo(unsigned predictor, std::span<std::int32_t> numbers) {
+        if (predictor == 0) return undo<0>(numbers);
+        if (predictor == 1) return undo<1>(numbers);
+        return predictor == 2 ? undo<2>(numbers) : undo<3>(numbers);
+    }
+
+    template <unsigned predictor>
+    static void undo(std::span<std::int32_t> numbers) {
+        Word last = static_cast<Word>(numbers[0]), before = 0, first = 0;
+        for (std::size_t k = 1; k < numbers.size(); ++k) {
+            const Word number = from_zigzag(static_cast<Word>(numbers[k])) + predict(predictor, k, last, before, first);
+            numbers[k] = static_cast<std::int32_t>(number);
+            first = before;
+            before = last;
+            last = number;
+        }
     }
 
     Bytes plain_;
@@ -280,7 +294,6 @@ private:
     std::uint64_t constant_ = 0;  // number of components
     std::uint64_t animated_ = 0;
     std::vector<std::span<std::int32_t>> numbers_of_;  // one per animated component
-    std::vector<Word> words_;
 };
 
 /// Returns the part of a payload that the plain form stores unchanged.
