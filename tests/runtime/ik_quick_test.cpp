@@ -134,6 +134,7 @@ Count compare(std::uint32_t chain, bool is_limited, bool is_hinge = true) {
             Pose general(quick);
             ReachOptions options;
             if (dice.one_in(4)) options.pole = dice.point(3.0f);
+            options.obey_constraints = !dice.one_in(8);
             const ReachTarget target(near + dice.point(1.0f));
             const auto result = reach_quickly(model->chains()[chain], target, quick, options);
             ++count.all;

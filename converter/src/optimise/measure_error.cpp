@@ -59,8 +59,7 @@ glm::dvec3 lengths_of(const glm::dmat3& m) {
 /// mesh, and Q_0 of any one bone, the error of a vertex is
 ///     sum w P p - sum w' Q p' = sum w (P - Q) p + sum (w - w') (Q - Q_0) p + sum (w - w') Q_0 p + sum w' Q (p - p')
 /// Each of the four terms is bounded by constants of the vertex and of the bones. Vertices are in a tree of boxes, so
-/// that a bound passes over many of them.
-/// What does not depend on the pose:
+/// that a bound passes over many of them. This is what does not depend on the pose.
 class PairPlan {
 public:
     /// The scenes must outlive the plan.
@@ -133,7 +132,8 @@ private:
     }
 
     static float rounded_up(double value) {
-        const auto near = static_cast<float>(or_infinite(value));
+        if (!(value <= std::numeric_limits<float>::max())) return std::numeric_limits<float>::infinity();
+        const auto near = static_cast<float>(value);
         return near < value ? std::nextafter(near, std::numeric_limits<float>::infinity()) : near;
     }
     static void raise(float& most, float value) { most = std::max(most, value); }

@@ -86,7 +86,7 @@ private:
     [[nodiscard]] bool make_legal_within(Rotation& local) const {
         auto [from, to, off] = limited(local);
         if (off < kInside * kInside) return true;
-        // Nearly all of a clip's rotations of a hinge are beside its axis by rounding: any way inside is the nearest.
+        // Nearly all of a clip's rotations of a hinge are beside its axis by rounding: any way inside is near enough.
         if (off > kOutside * kOutside)
             to = rotation_of(nearest_rotation(*constraint_, constraint_->shape, glm_of(from)));
         local = rotation_of(*rest_frame_) * to * conjugate(rotation_of(constraint_->frame));
@@ -126,9 +126,12 @@ BENDY_ALWAYS_INLINE LinkConstraint::Side bend_middle(const LinkConstraint& limit
     turn = turns[0];
     if (!turn_middle(bend, turn, before, reach.lower)) return Side::edge;
     const Side side = limit.side(glm_of(reach.lower));
-    if (side != Side::outside || !is_fixed) return side;
+    if (side != Side::outside) return side;
+    if (!is_fixed) find_turns(bend, true, load_flag(limb.prefers_back), turns);
     turn = turns[1];
-    return turn_middle(bend, turn, before, reach.lower) ? limit.side(glm_of(reach.lower)) : Side::edge;
+    if (!turn_middle(bend, turn, before, reach.lower)) return Side::edge;
+    const Side other = limit.side(glm_of(reach.lower));
+    return is_fixed || other == Side::outside ? other : Side::edge;  // the general solver turns the start half around
 }
 
 std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget& target, Pose& pose,

@@ -12,9 +12,9 @@
 // A fast path for simple chains: from the pose directly to the closed form and back, without an IkProblem.
 namespace bendy {
 
-/// Solves two bones, or an aim of one joint, if only a position is asked for and the limits do not matter; the
-/// resulting pose is that of the general solver except for rounding. Returns nothing, and leaves the pose unchanged, if
-/// the chain, the target or an option needs more.
+/// Solves two bones, or an aim of one joint, if only a position is asked for and the result is inside the limits; a
+/// start outside of them is moved inside first. The resulting pose is that of the general solver except for rounding.
+/// Returns nothing, and leaves the pose unchanged, if the chain, the target or an option needs more.
 std::optional<ReachResult> reach_quickly(const Chain& chain, const ReachTarget& target, Pose& pose,
                                          const ReachOptions& options);
 

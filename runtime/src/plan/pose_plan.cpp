@@ -183,6 +183,7 @@ void fill_lanes(TimedGroup& group) {
 
 /// Joins small groups of a block with different times.
 void join_small(SamplePlan& plan, std::size_t joints) {
+    if (plan.lines.size() < 2) return;
     const auto is_small = [](const TrackGroup& group) { return group.count < kLeast; };
     constexpr std::uint32_t kOne = 1, kTaken = 0x8000'0000;
     // By place: how many groups are small; then, with kTaken, the number of the timed group that has them.

@@ -374,6 +374,18 @@ TEST(FindGrid, ListsTimesIfAFewKeysLieCloseTogether) {
     EXPECT_GT(report.packed_bytes, 0u);
 }
 
+TEST(FindGrid, ThinsAListOfTimesToAnEvenGrid) {
+    Scene scene = chain(2);
+    auto times = frames(361, 120.0);
+    for (const std::uint32_t joint : {0u, 1u}) {
+        rotate(scene, joint, times, [](float t) { return 0.1f * wave(0.1f * t); });
+        times.insert(times.begin() + 100, times[99] + 1.0f / 960.0f);
+    }
+    ASSERT_EQ(find_grids(scene.clips[0]).at(0).grid.frames, 362u);
+    EXPECT_GT(pack_and_check(scene).packed_bytes, 0u);
+    EXPECT_LT(packed_frames(scene), 361u / 2);
+}
+
 // Exporters write times with few digits. A joint that jumps within a frame is far off even a thousandth of it later.
 TEST(FindGrid, ListsTimesIfAJumpIsOffAnEvenGrid) {
     Scene scene = chain(2);

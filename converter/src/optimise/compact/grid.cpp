@@ -233,7 +233,7 @@ double error_of(const Track& track, const Local& rest, const Grid& from, const G
         evaluate_track(track, snapped(track, from.time_of(f), from.snap()), value);
         set_property(track.path, value, exact);
         const double at = std::max(0.0, (from.time_of(f) - to.start) * to.rate);
-        const auto left = std::min(static_cast<std::uint32_t>(at), to.frames - 2);
+        const auto left = static_cast<std::uint32_t>(std::min(at, to.frames - 2.0));
         const Local found = between(kept[left], kept[left + 1], std::min(at - left, 1.0));
         worst = std::max(worst, difference(exact, found, track.path, reach));
     }
@@ -299,6 +299,7 @@ std::optional<ThinGrid> thin_grid(const Scene& scene, const Clip& clip, const Gr
     if (frames < kFewest) return std::nullopt;
     ThinGrid thin{{old.start, 0.0f, frames, {}}, 0.0};
     thin.grid.rate = static_cast<float>((frames - 1) / (old.time_of(old.frames - 1) - double{old.start}));
+    if (!std::isfinite(thin.grid.rate)) return std::nullopt;
     thin.error = grid_error(scene, clip, tracks, thin.grid, probes, most);
     return thin.error <= most ? std::optional(thin) : std::nullopt;
 }

@@ -34,12 +34,12 @@ struct GridTracks {
     std::vector<std::uint32_t> tracks;
 };
 
-/// The grids to try, best first; none if there is nothing to pack. The coarsest even grid that holds the keys of all
-/// tracks; then the list of all key times, if they are few, which is exact where keys lie a little beside the even
-/// grid. The list alone if the even grid has far more frames, or misses keys; the even grid that holds the keys of most
-/// tracks if the times are too many for a list.
-/// \param most_frames  maximum number of frames of a grid
-/// \param still        per track: it counts as constant although its keys differ, see find_still; may be empty
+/// Returns the grids to try, best first; none if there is nothing to pack. The first is the coarsest even grid that
+/// holds the keys of all tracks; the second is the list of all key times, if they are few, which is exact where keys
+/// lie a little beside the even grid. The list is the only one if the even grid has far more frames, or misses keys. If
+/// the times are too many for a list, the only one is the even grid that holds the keys of most tracks. \param
+/// most_frames  maximum number of frames of a grid \param still        per track: it counts as constant although its
+/// keys differ, see find_still; may be empty
 std::vector<GridTracks> find_grids(const Clip& clip, std::size_t most_frames = kMostFrames,
                                    const std::vector<bool>& still = {});
 
@@ -52,9 +52,10 @@ std::vector<bool> find_still(const Scene& scene, const Clip& clip, const std::ve
 /// Keys farther from a frame than this, in frames, are off the grid.
 inline constexpr double kGridTolerance = 0.01;
 
-/// Metres: the worst single joint's error from interpolating between the frames of an even grid, at its own probes and
-/// at the frames of the tracks' grid. Errors of its ancestors are not included. It stops at an error of more than
-/// `most`. \param probes  per joint, see find_probes
+/// Returns the worst single joint's error, in metres, from interpolating between the frames of an even grid: at its own
+/// probes and at the frames of the tracks' grid, without the errors of its ancestors. It stops at an error of more than
+/// `most`.
+/// \param probes  per joint, see find_probes
 double grid_error(const Scene& scene, const Clip& clip, const GridTracks& tracks, const Grid& even,
                   const std::vector<std::vector<glm::dvec3>>& probes, double most);
 

@@ -114,6 +114,10 @@ std::vector<std::vector<glm::dvec3>> find_probes(const Scene& scene, Probes kind
             if (track.path != TrackPath::weights) found.has_shell[track.target] = true;
         }
     }
+    for (std::size_t j = 0; j < rest.size(); ++j) {  // an object may be attached to a joint that moves with another one
+        const std::uint32_t parent = scene.joints[j].parent;
+        if (parent != kNone && found.has_shell[parent]) found.has_shell[j] = true;
+    }
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     for (std::size_t j = 0; j < rest.size(); ++j) {

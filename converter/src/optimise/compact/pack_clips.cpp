@@ -144,12 +144,11 @@ PackedReport pack_clip(const Scene& scene, Clip& clip, const std::vector<std::ve
     std::vector<bool> is_replaced;
     for (const GridTracks& tracks : grids) {
         const double most = kMostBetween * max_error;
-        const bool is_exact = &tracks == &grids.back();
-        const double error = is_exact ? 0.0 : grid_error(scene, clip, grids.back(), tracks.grid, probes, most);
-        if (error > most) continue;
+        const bool is_last = &tracks == &grids.back();
+        if (!is_last && grid_error(scene, clip, grids.back(), tracks.grid, probes, most) > most) continue;
         is_replaced.assign(clip.tracks.size(), false);
         for (const std::uint32_t number : tracks.tracks) is_replaced[number] = true;
-        best = pack_frames(source, tracks, is_replaced, probes, max_error, 1.0 - error / max_error);
+        best = pack_frames(source, tracks, is_replaced, probes, max_error, 1.0);
         if (!best) continue;
         if (progress) progress(kPackedOnce);
         pack_thinner(
@@ -206,6 +205,7 @@ std::vector<PackedReport> pack_clips(Scene& scene, std::span<const double> max_e
         if (!(max_errors[number] > 0.0)) return;
         double told = 0.0;
         const auto tell = [&](double done) {
+            if (!(done > told)) return;  // another grid is tried
             shared.add((done - told) * sizes[number]);
             told = done;
         };
