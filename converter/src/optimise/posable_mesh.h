@@ -22,7 +22,7 @@ struct Displacement {
     glm::dvec3 by{0.0};
 };
 
-/// What the poses of a mesh share. A rigid mesh gets a single bone.
+/// The data of a mesh that all its poses share. A rigid mesh gets a single bone.
 class MeshShape {
 public:
     /// \param mesh  must outlive the shape

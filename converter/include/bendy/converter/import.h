@@ -105,10 +105,10 @@ bool is_bendy_file(const std::filesystem::path& file);
 /// again. Throws nothing.
 Result<Scene, ImportError> import_bendy(const std::filesystem::path& file, Report& report);
 
-/// What import_bendy reads of a mesh.
+/// The parts of a mesh that import_bendy reads.
 enum class MeshParts : std::uint8_t {
     all,
-    motion,  ///< what moves its vertices: no normals, tangents, other attributes, or polygons
+    motion,  ///< positions, bones, weights and targets: no normals, tangents, other attributes, or polygons
 };
 
 /// As above, from memory; `bytes` must be 16-byte aligned.

@@ -35,11 +35,11 @@ struct GridTracks {
 };
 
 /// Returns the grids to try, best first; none if there is nothing to pack. The first is the coarsest even grid that
-/// holds the keys of all tracks; the second is the list of all key times, if they are few, which is exact where keys
-/// lie a little beside the even grid. The list is the only one if the even grid has far more frames, or misses keys. If
-/// the times are too many for a list, the only one is the even grid that holds the keys of most tracks. \param
-/// most_frames  maximum number of frames of a grid \param still        per track: it counts as constant although its
-/// keys differ, see find_still; may be empty
+/// holds the keys of all tracks. The second is the list of all key times, if they are few: it is exact where keys lie
+/// a little beside the even grid. The list is the only one if the even grid has far more frames, or misses keys. If
+/// the times are too many for a list, the only one is the even grid that holds the keys of most tracks.
+/// \param most_frames  maximum number of frames of a grid
+/// \param still        per track: it counts as constant although its keys differ, see find_still; may be empty
 std::vector<GridTracks> find_grids(const Clip& clip, std::size_t most_frames = kMostFrames,
                                    const std::vector<bool>& still = {});
 
