@@ -95,8 +95,9 @@ export class Clip implements Item {
   /** Its tracks, copied at the first access; without those of a packed clip. */
   get tracks(): readonly Track[] {
     const { runtime } = this.#model;
-    const count = runtime.calls.bendy_track_count(this.#model, this.number);
-    return (this.#tracks ??= Array.from({ length: count }, (_, number) => this.#track(runtime, number)));
+    return (this.#tracks ??= Array.from({ length: runtime.calls.bendy_track_count(this.#model, this.number) }, (_, number) =>
+      this.#track(runtime, number),
+    ));
   }
 
   #track(runtime: Runtime, number: number): Track {

@@ -29,24 +29,35 @@ export interface OpenOptions extends Omit<BendyOpenOptions, 'sumsLater' | 'copie
   runtime?: Runtime;
 }
 
-/** The bytes of a file in the module's memory: released with the last object that uses them. */
-class FileBytes {
-  readonly at: number;
+/** An opened file in the module's memory, with its bytes: closed and released with the last object that uses it. */
+class OpenFile {
+  /** The address of the opened file. */
+  readonly handle: number;
   readonly #runtime: Runtime;
-  #users = 1;
+  readonly #bytes: number;
+  #users = 0;
 
-  constructor(runtime: Runtime, bytes: Uint8Array) {
+  constructor(runtime: Runtime, bytes: Uint8Array, { object, checkSums }: OpenOptions) {
     this.#runtime = runtime;
-    this.at = runtime.allocate(bytes.length);
-    runtime.bytes.set(bytes, this.at);
+    this.#bytes = runtime.allocate(bytes.length);
+    runtime.bytes.set(bytes, this.#bytes);
+    try {
+      this.handle = runtime.calls.bendy_open_borrowed(this.#bytes, bytes.length, { object, sumsLater: checkSums === false });
+    } catch (failure) {
+      runtime.release(this.#bytes);
+      throw failure;
+    }
   }
 
-  use(): void {
+  use(): this {
     ++this.#users;
+    return this;
   }
 
   release(): void {
-    if (--this.#users === 0) this.#runtime.release(this.at);
+    if (--this.#users > 0) return;
+    this.#runtime.functions.bendy_close(this.handle);
+    this.#runtime.release(this.#bytes);
   }
 }
 
@@ -59,7 +70,7 @@ function withAdvice({ kind, message, code, path, offset }: BendyError, content: 
 
 /** A character: an opened and checked file. Immutable. Lists and arrays that have been read stay usable after it has been disposed. */
 export class Model extends Handle {
-  readonly #file: FileBytes;
+  readonly #file: OpenFile;
   #joints: Items<Joint> | undefined;
   #parents: Int32Array<ArrayBuffer> | undefined;
   #meshes: Items<Mesh> | undefined;
@@ -73,11 +84,8 @@ export class Model extends Handle {
   #morphTargets: Items<MorphTarget> | undefined;
   #vertexCount: number | undefined;
 
-  private constructor(runtime: Runtime, handle: number, file: FileBytes) {
-    super(runtime, handle, () => {
-      runtime.functions.bendy_close(handle);
-      file.release();
-    });
+  private constructor(runtime: Runtime, file: OpenFile) {
+    super(runtime, file?.handle, () => file.release());
     this.#file = file;
   }
 
@@ -96,22 +104,23 @@ export class Model extends Handle {
   static openSync(bytes: ArrayBuffer | Uint8Array, options: OpenOptions = {}): Model {
     const runtime = options.runtime ?? loadedRuntime();
     const content = asBytes(bytes);
-    const file = new FileBytes(runtime, content);
     try {
-      const given = { object: options.object, sumsLater: options.checkSums === false };
-      return new Model(runtime, runtime.calls.bendy_open_borrowed(file.at, content.byteLength, given), file);
+      return new Model(runtime, new OpenFile(runtime, content, options).use());
     } catch (failure) {
-      file.release();
       throw failure instanceof BendyError && failure.code === 'NOT_A_BENDY_FILE' ? withAdvice(failure, content) : failure;
     }
   }
 
   /** @internal Keeps the file's bytes and the lists alive for an object that uses the model; the result releases them. */
   useFile(): () => void {
-    const file = this.#file;
     void [this.joints, this.parents, this.meshes, this.clips, this.chains, this.morphTargets, this.vertexCount];
-    file.use();
+    const file = this.#file.use();
     return () => file.release();
+  }
+
+  /** @internal The same file as a model of its own, which stays readable when this one has been disposed. */
+  share(): Model {
+    return new Model(this.runtime, this.#file.use());
   }
 
   /** Checks all bytes against their integrity sums. Throws for the first wrong chunk: SUM_MISMATCH with path and offset. */

@@ -98,6 +98,11 @@ export class CrossFade extends OfModel {
     return this;
   }
 
+  /** @internal Whether anything plays. */
+  get isPlaying(): boolean {
+    return this.runtime.calls.bendy_crossfade_count(this) > 0;
+  }
+
   /** The clips that play, the oldest first. */
   get playing(): Playing[] {
     const { calls } = this.runtime;

@@ -15,7 +15,10 @@ const chromium = ['/usr/bin/chromium', '/usr/bin/chromium-browser'].find((file) 
 const missing = [program, corpus, chromium ?? 'Chromium'].filter((file) => !fs.existsSync(file));
 const types = { '.html': 'text/html', '.mjs': 'text/javascript', '.js': 'text/javascript', '.json': 'application/json' };
 
-/** For each file the clip and time to draw; null: rest. Without GLTFLoader, the picture of `skin: 'wasm'` is the reference. */
+/**
+ * For each file the clip and time to draw; null: rest. Without GLTFLoader, the picture of `skin: 'wasm'` is the reference, and of a crowd
+ * that of as many characters.
+ */
 const jobs = [
   { file: 'models/fox.glb', clip: 1, time: 0.3 },
   { file: 'models/cesium_man.gltf', clip: 0, time: 0.7 },
@@ -25,6 +28,9 @@ const jobs = [
   { file: 'generated/morph_and_skin.glb', clip: 0, time: 0.5 },
   { file: 'generated/attributes_zoo.glb', clip: 0, time: 0.5 },
   { file: 'generated/joints8.glb', clip: 0, time: 0.5, hasReference: false },
+  { file: 'models/fox.glb', clip: 1, isCrowd: true },
+  { file: 'models/robot.glb', clip: 0, isCrowd: true },
+  { file: 'generated/joints8.glb', clip: 0, isCrowd: true },
 ];
 
 test('pictures', { skip: missing.length > 0 && `needs ${missing.join(', ')}`, timeout: 300_000 }, async (context) => {

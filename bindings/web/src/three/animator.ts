@@ -29,6 +29,7 @@ import { described } from '../errors.js';
 import { type ClipOptions, startClip } from '../engines/player.js';
 import { Borrowed } from './borrowed.js';
 import type { BendyCharacter } from './character.js';
+import { Palettes } from './palettes.js';
 import { withIndex } from './parts.js';
 
 /** Options of a BendyAnimator. */
@@ -40,6 +41,12 @@ export interface AnimatorOptions {
   skin?: 'gpu' | 'wasm';
   /** With `wasm`: the skinning method. */
   method?: NonNullable<SkinOptions['method']>;
+  /**
+   * Which objects of joints move. `all`, if not given: each. `needed`: those that carry something, such as a sword that you attached, with
+   * the joints above them. The skinned meshes then take the runtime's palettes, which is faster; what else reads joints, such as
+   * raycasts and SkeletonHelper, needs `updateJoints` before.
+   */
+  joints?: 'all' | 'needed';
 }
 
 /** Options of `BendyAnimator.play`. */
@@ -93,6 +100,7 @@ export class BendyAnimator {
   readonly #method: NonNullable<SkinOptions['method']>;
   readonly #skinned: Skinned[] = [];
   readonly #attributes = new Map<number, Attributes>();
+  readonly #palettes: Palettes | null;
 
   /** Throws OUT_OF_MEMORY, DISPOSED. */
   constructor(character: BendyCharacter, options: AnimatorOptions = {}) {
@@ -105,7 +113,9 @@ export class BendyAnimator {
     this.#other = model.pose();
     this.#fade = new CrossFade(model);
     this.#method = options.method ?? 'linear';
+    this.#palettes = options.joints === 'needed' && options.skin !== 'wasm' ? new Palettes(character) : null;
     if (options.skin === 'wasm') this.#skinByRuntime();
+    else if (this.#palettes !== null) this.apply();
   }
 
   /** Sets the pose to a clip at a time on its time line, in seconds. Throws NOT_FOUND, BAD_ARGUMENT. */
@@ -189,7 +199,7 @@ export class BendyAnimator {
    * nothing plays, the pose stays, and is written.
    */
   update(seconds: number, adjust?: (animator: this) => void): this {
-    if (this.#fade.playing.length > 0) {
+    if (this.#fade.isPlaying) {
       this.#fade.advance(seconds).sample(this.#borrowed?.pose ?? this.pose);
       this.#borrowed?.apply(this.pose);
     }
@@ -199,13 +209,10 @@ export class BendyAnimator {
 
   /** Writes the pose. */
   apply(): this {
-    const { joints, parts, model } = this.character;
-    const { locals } = this.pose;
-    joints.forEach((joint, k) => {
-      joint.quaternion.fromArray(locals, 10 * k);
-      joint.position.fromArray(locals, 10 * k + 4);
-      joint.scale.fromArray(locals, 10 * k + 7);
-    });
+    const { parts, model } = this.character;
+    const { moved } = this.#palettes ?? { moved: null };
+    if (moved === null || moved.length > 0) this.#moveJoints(moved);
+    this.#palettes?.take(this.pose);
     if (model.morphTargets.length > 0) {
       const weights = this.pose.morphWeights;
       for (const { object, mesh } of parts) {
@@ -224,8 +231,32 @@ export class BendyAnimator {
     return this;
   }
 
+  #moveJoints(moved: readonly number[] | null): void {
+    const { joints } = this.character;
+    const { locals } = this.pose;
+    const move = (k: number): void => {
+      const joint = joints[k]!;
+      joint.quaternion.fromArray(locals, 10 * k);
+      joint.position.fromArray(locals, 10 * k + 4);
+      joint.scale.fromArray(locals, 10 * k + 7);
+    };
+    if (moved === null) for (let k = 0; k < joints.length; ++k) move(k);
+    else for (const k of moved) move(k);
+  }
+
+  /** With `joints: 'needed'`: moves the objects of all joints to the pose, and computes the scene's world matrices. */
+  updateJoints(): this {
+    this.#moveJoints(null);
+    this.#palettes?.wake();
+    this.character.scene.updateWorldMatrix(true, false);
+    this.character.scene.updateMatrixWorld(true);
+    this.#palettes?.rest();
+    return this;
+  }
+
   /** Releases the animator's memory. Vertices that the runtime has skinned are skinned by three.js again. */
   dispose(): void {
+    this.#palettes?.dispose();
     for (const { object, geometry, skeleton, wasCulled } of this.#skinned) {
       const { drawRange } = object.geometry;
       geometry.setDrawRange(drawRange.start, drawRange.count);

@@ -1,7 +1,7 @@
-import { AnimationClip, Bone, type Camera, Group, type KeyframeTrack, Object3D, PropertyBinding } from 'three';
+import { AnimationClip, Bone, type Camera, Group, type KeyframeTrack, Object3D, PropertyBinding, type Skeleton, SkinnedMesh } from 'three';
 import { clone as cloneObjects } from 'three/addons/utils/SkeletonUtils.js';
 import { type Chain, type Constraint, type Items, LevelOfDetail, type Model } from '../index.js';
-import { makeClips } from './clips.js';
+import { lazyClip, makeClips } from './clips.js';
 import { Materials } from './materials.js';
 import { nameGiver } from './names.js';
 import { bindParts, makeParts, type Part, type PlacedPart } from './parts.js';
@@ -16,7 +16,7 @@ export interface BendyCharacter {
   scenes: Group[];
   /** Empty: the runtime has no cameras. */
   cameras: Camera[];
-  /** For AnimationMixer. */
+  /** For AnimationMixer. The tracks of a clip are made when they are first read. */
   animations: AnimationClip[];
   /** The IK chains: `BendyAnimator.reach` takes their names. */
   chains: Items<Chain>;
@@ -25,7 +25,10 @@ export interface BendyCharacter {
   /** The glTF source's information about itself: version, generator, copyright; empty for other sources. */
   asset: Record<string, unknown>;
   userData: Record<string, unknown>;
-  /** The model that the runtime poses. `model.dispose()` releases its memory; the scene and the animations stay usable. */
+  /**
+   * The model that the runtime poses. When it has been disposed, the scene and the animations stay usable: the file's memory is released
+   * when the tracks of all of them have been read, or nothing refers to them any more.
+   */
   model: Model;
   /** The object of each joint, numbered as in the model: a Bone if a skin uses it. */
   joints: Object3D[];
@@ -128,18 +131,18 @@ export async function makeCharacter(model: Model, textures: Textures): Promise<B
   };
 }
 
-/** The clip for copies of objects without a name, which its tracks find by their UUIDs: the same clip if there are none. */
+/** The clip for copies of objects without a name, which its tracks find by their UUIDs. */
 function retarget(clip: AnimationClip, copies: ReadonlyMap<string, Object3D>): AnimationClip {
-  const uuidOf = (track: KeyframeTrack): string => track.name.slice(0, track.name.lastIndexOf('.'));
-  if (!clip.tracks.some((track) => copies.has(uuidOf(track)))) return clip;
-  const tracks = clip.tracks.map((track) => {
-    const copy = copies.get(uuidOf(track));
+  const rename = (track: KeyframeTrack): KeyframeTrack => {
+    const end = track.name.lastIndexOf('.');
+    const copy = copies.get(track.name.slice(0, end));
     if (copy === undefined) return track;
     const renamed = track.clone();
-    renamed.name = copy.uuid + track.name.slice(track.name.lastIndexOf('.'));
+    renamed.name = copy.uuid + track.name.slice(end);
     return renamed;
-  });
-  return new AnimationClip(clip.name, clip.duration, tracks, clip.blendMode);
+  };
+  const retargeted = lazyClip(clip.name, clip.duration, () => clip.tracks.map(rename));
+  return Object.assign(retargeted, { blendMode: clip.blendMode, userData: clip.userData });
 }
 
 /**
@@ -154,12 +157,22 @@ export function cloneCharacter(character: BendyCharacter): BendyCharacter {
     object.children.forEach((child, k) => match(child, copy.children[k]!));
   };
   match(character.scene, scene);
-  const byUuid = new Map(character.joints.map((joint) => [joint.uuid, copies.get(joint)!]));
+  // Copied meshes have a skeleton each: those that share one share it again.
+  const skeletons = new Map<Skeleton, Skeleton>();
+  for (const { object } of character.parts) {
+    if (!(object instanceof SkinnedMesh)) continue;
+    const copy = copies.get(object) as SkinnedMesh;
+    const shared = skeletons.get(object.skeleton);
+    if (shared === undefined) skeletons.set(object.skeleton, copy.skeleton);
+    else copy.bind(shared, copy.bindMatrix);
+  }
+  const nameless = character.joints.filter(({ name }) => name === '');
+  const byUuid = new Map(nameless.map((joint) => [joint.uuid, copies.get(joint)!]));
   return {
     ...character,
     scene,
     scenes: [scene],
-    animations: character.animations.map((clip) => retarget(clip, byUuid)),
+    animations: byUuid.size === 0 ? [...character.animations] : character.animations.map((clip) => retarget(clip, byUuid)),
     joints: character.joints.map((joint) => copies.get(joint)!),
     parts: character.parts.map((part) => ({ ...part, object: copies.get(part.object) as Part['object'] })),
   };

@@ -142,20 +142,42 @@ function sampledTracks(model: Model, clip: Clip): Keys[] {
   return tracks;
 }
 
-/** Makes three.js's clips. Clips that store frames are sampled at these. */
+/** The tracks of a clip. Those of a clip that stores frames are sampled at these. */
+function makeTracks(model: Model, clip: Clip, joints: readonly Object3D[], parts: readonly Part[]): KeyframeTrack[] {
+  const keys: Keys[] = [...clip.tracks];
+  // Clips that play whole frames of a mesh have a frame rate.
+  const playsFrames = clip.frameRate > 0 && model.morphTargets.length > 0;
+  if (clip.isPacked || playsFrames) keys.push(...sampledTracks(model, clip));
+  return keys.flatMap((track) => {
+    if (track.path !== 'weights') return [makeTrack(joints[track.target]!, track)];
+    const objects = parts.filter(({ mesh, object }) => mesh === track.target && object.morphTargetInfluences !== undefined);
+    return objects.map(({ object }) => makeTrack(object, track));
+  });
+}
+
+/** Makes a clip whose tracks are made when they are first read. */
+export function lazyClip(name: string, duration: number, make: () => KeyframeTrack[]): AnimationClip {
+  const clip = new AnimationClip(name, duration, []);
+  const set = (tracks: KeyframeTrack[]): KeyframeTrack[] => {
+    Object.defineProperty(clip, 'tracks', { value: tracks, writable: true, enumerable: true, configurable: true });
+    return tracks;
+  };
+  Object.defineProperty(clip, 'tracks', { get: () => set(make()), set, enumerable: true, configurable: true });
+  return clip;
+}
+
+/** Makes three.js's clips. Their tracks are made when they are first read, also when the model has been disposed by then. */
 export function makeClips(model: Model, joints: readonly Object3D[], parts: readonly Part[]): AnimationClip[] {
-  return model.clips.map((clip) => {
-    const keys: Keys[] = [...clip.tracks];
-    // Clips that play whole frames of a mesh have a frame rate.
-    const playsFrames = clip.frameRate > 0 && model.morphTargets.length > 0;
-    if (clip.isPacked || playsFrames) keys.push(...sampledTracks(model, clip));
-    const tracks = keys.flatMap((track) => {
-      if (track.path !== 'weights') return [makeTrack(joints[track.target]!, track)];
-      const objects = parts.filter(({ mesh, object }) => mesh === track.target && object.morphTargetInfluences !== undefined);
-      return objects.map(({ object }) => makeTrack(object, track));
+  if (model.clips.length === 0) return [];
+  const source = model.share();
+  let unread = model.clips.length;
+  return model.clips.map(({ name, number, end, extras }) => {
+    const made = lazyClip(name || `animation_${number}`, end, () => {
+      const tracks = makeTracks(source, source.clips[number]!, joints, parts);
+      if (--unread === 0) source.dispose();
+      return tracks;
     });
-    const made = new AnimationClip(clip.name || `animation_${clip.number}`, clip.end, tracks);
-    if (typeof clip.extras === 'object') made.userData = { ...clip.extras };
+    if (typeof extras === 'object') made.userData = { ...extras };
     return made;
   });
 }

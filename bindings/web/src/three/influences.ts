@@ -38,23 +38,26 @@ export function readInfluences(mesh: Mesh): Influences {
   const blendOf = new Map<string, number>();
   const blended: number[] = []; // the vertex that each blended bone is made from
   for (let vertex = 0; vertex < vertexCount; ++vertex) {
-    const used: number[] = [];
-    for (let k = size * vertex; k < size * (vertex + 1); ++k) if (weights[k] !== 0) used.push(k);
-    if (used.length <= 4) {
-      for (const [slot, k] of used.entries()) {
-        indices[4 * vertex + slot] = bones[k]!;
-        shares[4 * vertex + slot] = weights[k]!;
+    const end = size * (vertex + 1);
+    let used = 0;
+    for (let k = end - size; k < end; ++k) {
+      if (weights[k] === 0) continue;
+      if (used < 4) {
+        indices[4 * vertex + used] = bones[k]!;
+        shares[4 * vertex + used] = weights[k]!;
       }
-      continue;
+      ++used;
     }
-    const key = used.map((k) => `${bones[k]} ${weights[k]}`).join();
+    if (used <= 4) continue;
+    let key = '';
+    for (let k = end - size; k < end; ++k) if (weights[k] !== 0) key += `${bones[k]} ${weights[k]},`;
     let blend = blendOf.get(key);
     if (blend === undefined) {
       blend = blended.push(vertex) - 1;
       blendOf.set(key, blend);
     }
-    indices[4 * vertex] = boneCount + blend;
-    shares[4 * vertex] = 1;
+    indices.fill(0, 4 * vertex, 4 * vertex + 4)[4 * vertex] = boneCount + blend;
+    shares.fill(0, 4 * vertex, 4 * vertex + 4)[4 * vertex] = 1;
   }
   // Shaders take indices as floats, so these hold numbers beyond 16 bits.
   const ArrayType = boneCount + blended.length <= 0x10000 ? Uint16Array : Float32Array;
@@ -87,6 +90,11 @@ export class BlendedSkeleton extends Skeleton {
 
   override update(): void {
     super.update();
+    this.blend();
+  }
+
+  /** Computes the matrices of the blended bones from those of the others. */
+  blend(): void {
     const matrices = this.boneMatrices!;
     const { size, count, bones, weights } = this.blends;
     const first = 16 * this.bones.length;

@@ -138,6 +138,7 @@ function assign(material: ThreeMaterial, properties: Json): void {
 
 async function readExtensions(material: Material, textures: Textures, textureCount: number): Promise<Json> {
   const properties: Json = {};
+  const loading: Promise<void>[] = [];
   const given = asObject(material.extensions) ?? {};
   for (const [name, { defaults, fields }] of Object.entries(extensions)) {
     const extension = asObject(given[name]);
@@ -154,13 +155,14 @@ async function readExtensions(material: Material, textures: Textures, textureCou
       } else {
         const use = textureUse(value, textureCount);
         if (use === null) continue;
-        const texture = await textures.use(use, kind === 'colour texture' ? SRGBColorSpace : undefined);
-        if (texture !== null) properties[property] = texture;
+        const texture = textures.use(use, kind === 'colour texture' ? SRGBColorSpace : undefined);
+        loading.push(texture.then((loaded) => void (loaded !== null && (properties[property] = loaded))));
         const scale = numberOf(asObject(value)?.['scale']);
         if (member === 'clearcoatNormalTexture' && scale !== null) properties['clearcoatNormalScale'] = new Vector2(scale, scale);
       }
     }
   }
+  await Promise.all(loading);
   if (properties['ior'] === 0) properties['ior'] = 1000; // glTF: infinitely dense
   if (properties['attenuationDistance'] === 0) properties['attenuationDistance'] = Infinity;
   return properties;
@@ -215,7 +217,17 @@ export class Materials {
     material.name = source.name;
     material.color = linear(source.baseColour);
     material.opacity = source.baseColour[3];
-    material.map = await texture(source.baseColourTexture, SRGBColorSpace);
+    const isLit = material instanceof MeshStandardMaterial;
+    const lit = (use: TextureUse | null, colourSpace?: string): Promise<Texture | null> => texture(isLit ? use : null, colourSpace);
+    const [map, roughnessMap, normalMap, aoMap, emissiveMap, extended] = await Promise.all([
+      texture(source.baseColourTexture, SRGBColorSpace),
+      lit(source.metallicRoughnessTexture),
+      lit(source.normalTexture),
+      lit(source.occlusionTexture),
+      lit(source.emissiveTexture, SRGBColorSpace),
+      isLit ? readExtensions(source, this.#textures, this.#model.textures.length) : Promise.resolve<Json>({}),
+    ]);
+    material.map = map;
     if (source.doubleSided) material.side = DoubleSide;
     if (source.alphaMode === 'blend') {
       material.transparent = true;
@@ -223,19 +235,18 @@ export class Materials {
     } else if (source.alphaMode === 'mask') {
       material.alphaTest = source.alphaCutoff;
     }
-    if (material instanceof MeshStandardMaterial) {
+    if (isLit) {
       material.metalness = source.metallic;
       material.roughness = source.roughness;
-      material.metalnessMap = material.roughnessMap = await texture(source.metallicRoughnessTexture);
-      material.normalMap = await texture(source.normalTexture);
+      material.metalnessMap = material.roughnessMap = roughnessMap;
+      material.normalMap = normalMap;
       material.normalScale.setScalar(source.normalTexture === null ? 1 : source.normalScale);
-      material.aoMap = await texture(source.occlusionTexture);
+      material.aoMap = aoMap;
       if (source.occlusionTexture !== null) material.aoMapIntensity = source.occlusionStrength;
       material.emissive = linear(source.emissive);
-      material.emissiveMap = await texture(source.emissiveTexture, SRGBColorSpace);
+      material.emissiveMap = emissiveMap;
       const strength = numberOf(asObject(given['KHR_materials_emissive_strength'])?.['emissiveStrength']);
       if (strength !== null) material.emissiveIntensity = strength;
-      const extended = await readExtensions(source, this.#textures, this.#model.textures.length);
       assign(material, extended);
       if (!('iridescenceThicknessMinimum' in material)) {
         // Older versions of three.js have one property for both.

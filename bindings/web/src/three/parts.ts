@@ -13,6 +13,7 @@ import {
 } from 'three';
 import type { Mesh, Model, Stream, Submesh } from '../index.js';
 import { BlendedSkeleton, BlendedSkinnedMesh, type Influences, readInfluences } from './influences.js';
+import { none } from '../runtime.js';
 import type { Materials } from './materials.js';
 import { nameGiver } from './names.js';
 
@@ -30,8 +31,6 @@ export interface Part {
 export interface PlacedPart extends Part {
   readonly joint: number | null;
 }
-
-const none = 0xffffffff;
 
 /** GLTFLoader's name for an attribute; null for one that is read in another way. */
 function attributeName({ kind, set, name }: Stream): string | null {
@@ -65,7 +64,7 @@ function sharedGeometry(mesh: Mesh, influences: Influences | null): BufferGeomet
     const moved = target.displacements();
     const spread = (values: Float32Array): BufferAttribute => {
       const all = new Float32Array(3 * mesh.vertexCount);
-      moved.vertices.forEach((vertex, i) => all.set(values.subarray(3 * i, 3 * i + 3), 3 * vertex));
+      for (const [i, vertex] of moved.vertices.entries()) for (let c = 0; c < 3; ++c) all[3 * vertex + c] = values[3 * i + c]!;
       const attribute = new BufferAttribute(all, 3);
       attribute.name = names[k]!; // updateMorphTargets makes the dictionary from it
       return attribute;
@@ -122,15 +121,20 @@ function groupSubmeshes(model: Model, mesh: Mesh): { joint: number | null; subme
 
 /** Makes the objects of all meshes. `uniqueName` is called once for each. */
 export async function makeParts(model: Model, materials: Materials, uniqueName: (name: string) => string): Promise<PlacedPart[]> {
-  const parts: PlacedPart[] = [];
+  const parts: Promise<PlacedPart>[] = [];
   for (const mesh of model.meshes) {
     const influences = mesh.isRigid ? null : readInfluences(mesh);
     const shared = sharedGeometry(mesh, influences);
     if (shared === null) continue;
     const IndexType = mesh.vertexCount > 0xffff ? Uint32Array : Uint16Array;
     for (const { joint, submeshes } of groupSubmeshes(model, mesh)) {
-      const indices = submeshes.flatMap(({ first, count }) => Array.from(mesh.indices.subarray(first, first + count)));
-      const geometry = withIndex(shared, new BufferAttribute(new IndexType(indices), 1));
+      const indices = new IndexType(submeshes.reduce((sum, { count }) => sum + count, 0));
+      let at = 0;
+      for (const { first, count } of submeshes) {
+        indices.set(mesh.indices.subarray(first, first + count), at);
+        at += count;
+      }
+      const geometry = withIndex(shared, new BufferAttribute(indices, 1));
       const { material, topology } = submeshes[0]!;
       const surface = {
         topology,
@@ -138,15 +142,18 @@ export async function makeParts(model: Model, materials: Materials, uniqueName: 
         hasTangents: mesh.hasTangents,
         hasColours: geometry.hasAttribute('color'),
       };
-      const threeMaterial = await materials.use(material, surface);
-      const object = makeObject(topology, influences, geometry, threeMaterial);
-      object.name = uniqueName(mesh.name || `mesh_${mesh.number}`);
-      if (typeof mesh.extras === 'object') Object.assign(object.userData, mesh.extras);
-      mesh.morphTargets.forEach((target, k) => (object.morphTargetInfluences![k] = target.restWeight));
-      parts.push({ object, mesh: mesh.number, submeshes: submeshes.map(({ number }) => number), joint });
+      const name = uniqueName(mesh.name || `mesh_${mesh.number}`);
+      const make = (threeMaterial: Material): PlacedPart => {
+        const object = makeObject(topology, influences, geometry, threeMaterial);
+        object.name = name;
+        if (typeof mesh.extras === 'object') Object.assign(object.userData, mesh.extras);
+        mesh.morphTargets.forEach((target, k) => (object.morphTargetInfluences![k] = target.restWeight));
+        return { object, mesh: mesh.number, submeshes: submeshes.map(({ number }) => number), joint };
+      };
+      parts.push(materials.use(material, surface).then(make)); // all images are decoded at once
     }
   }
-  return parts;
+  return Promise.all(parts);
 }
 
 /** Binds the skinned parts to bones. Meshes with the same palette share a skeleton. */
