@@ -44,8 +44,9 @@ private:
     float minimum_[kRepeated], step_[kRepeated];  // of x y z x y z ...
 };
 
+/// Takes copies: for references, the compiler would read all numbers anew after each store.
 template <class Shifts>
-BENDY_NOINLINE void displace_by(const Shifts& shifts, const DisplaceBlock& block) {
+BENDY_NOINLINE void displace_by(const Shifts shifts, const DisplaceBlock block) {
     const Lanes weight = block.weight;
     for (std::size_t run = 0; run < block.count; ++run) {
         const auto [entry, vertex, count] = block.runs[run];

@@ -39,7 +39,7 @@ std::span<const MorphRun> next_runs(std::span<const Index> touched, std::size_t&
             return length + more <= part.size() && part[length + more - 1] == vertex + length + more - 1;
         };
         while (goes_on(8)) length += 8;
-        if (goes_on(4)) length += 4;
+        while (goes_on(4)) length += 4;  // a loop: a conditional move would wait for the last run
         while (goes_on(1)) ++length;
         room[count++] = {static_cast<std::uint32_t>(entry), static_cast<std::uint32_t>(vertex - first),
                          static_cast<std::uint32_t>(length)};
