@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <utility>
 
 namespace bendy {
 namespace {
 
 template <class T>
-void widen(const StreamView& weights, std::size_t first, std::size_t count, std::span<float> out) {
+void widen_as(const StreamView& weights, std::size_t first, std::size_t count, float* out) {
     const std::size_t n = weights.components;
     const std::span<const T> from = weights.as<T>().subspan(first * n, count * n);
     if (weights.boxes.empty()) {
@@ -23,6 +24,11 @@ void widen(const StreamView& weights, std::size_t first, std::size_t count, std:
         for (std::size_t c = 0; c < n; ++c)
             out[at + c] = weights.boxes[c].minimum + weights.boxes[c].step * static_cast<float>(from[at + c]);
     }
+}
+
+void widen(const StreamView& weights, std::size_t first, std::size_t count, float* out) {
+    if (weights.type == ComponentType::u8) return widen_as<std::uint8_t>(weights, first, count, out);
+    widen_as<std::uint16_t>(weights, first, count, out);
 }
 
 SkinOutput moved_on(const SkinOutput& out, std::size_t vertices) {
@@ -45,50 +51,51 @@ Staging::Staging(const Mesh& mesh, const SkinPlan* plan, std::span<const float> 
     if (plan_ != nullptr && plan_->first.empty()) plan_ = nullptr;
     weights_in_place_ =
         !mesh.weights || mesh.weights->type == ComponentType::f32 || (plan_ != nullptr && plan_->is_complete);
-    capacity_ = std::numeric_limits<std::size_t>::max();
-    if (!positions_in_place_ || !normals_in_place_ || !tangents_in_place_) capacity_ = kVertices;
-    if (weights_in_place_) return;
-    capacity_ = std::min(kVertices, kNumbers / mesh.weights->components);
+    const std::size_t numbers = (positions_in_place_ ? 0u : 3u) + (normals_in_place_ ? 0u : 3u) +
+                                (tangents_in_place_ ? 0u : 4u) + (weights_in_place_ ? 0u : mesh.weights->components);
+    capacity_ = numbers == 0 ? std::numeric_limits<std::size_t>::max() : kNumbers / numbers;
     if (capacity_ < SkinPlan::kGroup) plan_ = nullptr;
     if (plan_ != nullptr) capacity_ -= capacity_ % SkinPlan::kGroup;
 }
 
 template <class Vector>
 const float* Staging::bring(const std::optional<StreamView>& stream, std::optional<StreamView> MorphTargetView::*shifts,
-                            std::size_t first, std::size_t count, bool in_place, std::span<float> scratch,
+                            std::size_t first, std::size_t count, bool in_place, float*& scratch,
                             std::span<Vector>& shifted) const {
     constexpr auto kNumbersEach = static_cast<std::size_t>(Vector::length());
     if (in_place) return stream->as<float>().data() + first * kNumbersEach;
-    assert(count * kNumbersEach <= scratch.size());
-    const std::span<Vector> vectors(reinterpret_cast<Vector*>(scratch.data()), count);  // NOLINT(*-reinterpret-cast)
+    float* const numbers = std::exchange(scratch, scratch + count * kNumbersEach);
+    const std::span<Vector> vectors(reinterpret_cast<Vector*>(numbers), count);  // NOLINT(*-reinterpret-cast)
     if (!stream) {
         std::fill(vectors.begin(), vectors.end(), Vector(0.0f));
-        if (shifts != &MorphTargetView::positions) return scratch.data();  // displacements without a stream to displace
+        if (shifts != &MorphTargetView::positions) return numbers;  // displacements without a stream to displace
     } else {
         decode(*stream, first, vectors);
     }
     if (have_frames(mesh_, shifts)) lighten(rest_share_, vectors);
     shifted = vectors;
-    return scratch.data();
+    return numbers;
 }
 
 void Staging::fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block) {
     const std::size_t count = block.vertices;
+    assert(count <= capacity_);
+    float* scratch = scratch_.data();
     Vertices shifted;
     block.out_positions = moved_on(wanted.out_positions, first);
     block.out_normals = moved_on(wanted.out_normals, first);
     block.out_tangents = moved_on(wanted.out_tangents, first);
     if (wanted.out_positions.data != nullptr) {
         block.positions = bring<glm::vec3>(positions_, &MorphTargetView::positions, first, count, positions_in_place_,
-                                           positions_scratch_, shifted.positions);
+                                           scratch, shifted.positions);
     }
     if (wanted.out_normals.data != nullptr) {
         block.normals = bring<glm::vec3>(mesh_.normals, &MorphTargetView::normals, first, count, normals_in_place_,
-                                         normals_scratch_, shifted.normals);
+                                         scratch, shifted.normals);
     }
     if (wanted.out_tangents.data != nullptr) {
         block.tangents = bring<glm::vec4>(mesh_.tangents, &MorphTargetView::tangents, first, count, tangents_in_place_,
-                                          tangents_scratch_, shifted.tangents);
+                                          scratch, shifted.tangents);
     }
     for (ActiveTarget& active : active_) active.displace(first, count, shifted);
     if (!mesh_.bones) return;
@@ -108,13 +115,12 @@ void Staging::fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block)
         block.plan_weights = plan_->weights.empty() ? nullptr : plan_->weights.front().of;
         if (plan_->is_complete) return;
     }
-    block.weights = weights_scratch_.data();
-    if (weights_in_place_) {
-        block.weights = weights.as<float>().data() + at;
-    } else if (weights.type == ComponentType::u8) {
-        widen<std::uint8_t>(weights, first, count, weights_scratch_);
-    } else {
-        widen<std::uint16_t>(weights, first, count, weights_scratch_);
+    block.weights = weights_in_place_ ? weights.as<float>().data() + at : scratch;
+    if (weights_in_place_) return;
+    const std::size_t step = plan_ != nullptr ? SkinPlan::kGroup : count;
+    for (std::size_t k = 0; k < count; k += step) {
+        if (plan_ != nullptr && block.plan_first[k / step] != block.plan_first[k / step + 1]) continue;  // in the plan
+        widen(weights, first + k, std::min(step, count - k), scratch + k * weights.components);
     }
 }
 

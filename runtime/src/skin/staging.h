@@ -30,13 +30,13 @@ public:
     void fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block);
 
 private:
-    static constexpr std::size_t kVertices = 512;
-    static constexpr std::size_t kNumbers = 4096;  // at least 1 vertex of kMaxInfluences
+    static constexpr std::size_t kNumbers = 6144;  // 24 KiB: at least 1 vertex of kMaxInfluences
 
+    /// \param scratch  the free part of scratch_; loses what is taken
     /// \param shifted  becomes the vectors that morph targets displace, if there are any
     template <class Vector>
     const float* bring(const std::optional<StreamView>& stream, std::optional<StreamView> MorphTargetView::*shifts,
-                       std::size_t first, std::size_t count, bool in_place, std::span<float> scratch,
+                       std::size_t first, std::size_t count, bool in_place, float*& scratch,
                        std::span<Vector>& shifted) const;
 
     const Mesh& mesh_;
@@ -46,10 +46,7 @@ private:
     float rest_share_ = 1.0f;  // of the mesh's own streams, beside its frames
     bool positions_in_place_ = true, normals_in_place_ = true, tangents_in_place_ = true, weights_in_place_ = true;
     std::size_t capacity_ = 0;
-    std::array<float, 3 * kVertices> positions_scratch_;
-    std::array<float, 3 * kVertices> normals_scratch_;
-    std::array<float, 4 * kVertices> tangents_scratch_;
-    std::array<float, kNumbers> weights_scratch_;
+    std::array<float, kNumbers> scratch_;
 };
 
 }  // namespace bendy
