@@ -3,102 +3,97 @@
 
 // NOLINTBEGIN(misc-definitions-in-headers): included once, in an unnamed namespace
 
+/// Decodes BoxedBlock::kPattern numbers at a time. Takes a copy: for a reference, the compiler would read it anew after
+/// each store.
 template <class T>
-BENDY_NOINLINE void widen_as(const T* from, std::size_t count, float* to) {
-    std::size_t at = 0;
-    for (; at + kLanes <= count; at += kLanes) store(to + at, load_integers(from + at));
-    if (at == count) return;
-    T last[kLanes]{};
-    std::memcpy(last, from + at, (count - at) * sizeof(T));
-    store(to + at, load_integers(last));
+BENDY_NOINLINE void decode_boxed_as(const BoxedBlock block) {
+    constexpr std::size_t kPattern = BoxedBlock::kPattern;
+    const auto decode = [&](const T* from, float* to) {
+        for (std::size_t k = 0; k < kPattern; k += kLanes)
+            store(to + k, fused(load_lanes(block.step + k), load_integers(from + k), load_lanes(block.minimum + k)));
+    };
+    const T* from = static_cast<const T*>(block.integers.data);
+    float* to = block.to;
+    std::size_t left = block.numbers;
+    for (; left >= kPattern; left -= kPattern, from += kPattern, to += kPattern) decode(from, to);
+    T integers[kPattern]{};
+    float numbers[kPattern];
+    std::memcpy(integers, from, left * sizeof(T));
+    decode(integers, numbers);
+    std::memcpy(to, numbers, left * sizeof(float));
 }
-
-/// Converts `count` integers from the number `first` on to floats; `to` has room for whole lanes.
-inline void widen(const Integers& integers, std::size_t first, std::size_t count, float* to) {
-    const auto [data, bytes, is_signed] = integers;
-    if (bytes == 4) return widen_as(static_cast<const std::uint32_t*>(data) + first, count, to);
-    if (bytes == 2 && is_signed) return widen_as(static_cast<const std::int16_t*>(data) + first, count, to);
-    if (bytes == 2) return widen_as(static_cast<const std::uint16_t*>(data) + first, count, to);
-    if (is_signed) return widen_as(static_cast<const std::int8_t*>(data) + first, count, to);
-    widen_as(static_cast<const std::uint8_t*>(data) + first, count, to);
-}
-
-/// Numbers that are decoded at a time: of whole elements, and a multiple of BoxedBlock::kPattern and of all lanes.
-constexpr std::size_t kDecoded = 96;
 
 inline void decode_boxed_lanes(const BoxedBlock& block) {
-    float numbers[kDecoded]{};
-    for (std::size_t first = 0; first < block.numbers; first += kDecoded) {
-        const std::size_t count = block.numbers - first < kDecoded ? block.numbers - first : kDecoded;
-        widen(block.integers, first, count, numbers);
-        float* const to = count == kDecoded ? block.to + first : numbers;
-        for (std::size_t at = 0; at < kDecoded; at += BoxedBlock::kPattern) {
-            for (std::size_t k = 0; k < BoxedBlock::kPattern; k += kLanes) {
-                store(to + at + k,
-                      fused(load_lanes(block.step + k), load_lanes(numbers + at + k), load_lanes(block.minimum + k)));
-            }
-        }
-        if (count < kDecoded) std::memcpy(block.to + first, numbers, count * sizeof(float));
-    }
+    const auto [data, bytes, is_signed] = block.integers;
+    if (bytes == 4) return decode_boxed_as<std::uint32_t>(block);
+    if (bytes == 2) return is_signed ? decode_boxed_as<std::int16_t>(block) : decode_boxed_as<std::uint16_t>(block);
+    is_signed ? decode_boxed_as<std::int8_t>(block) : decode_boxed_as<std::uint8_t>(block);
 }
 
 /// Returns the unit vectors at points whose coordinates are integers, `largest` standing for 1; zero vectors where both
 /// are the type's smallest.
 inline Three unfolded(Lanes a, Lanes b, float largest) {
     const Lanes is_there = negatives(-2.0f * largest - 1.5f - (a + b));
-    a = -lesser(largest, -a);
-    b = -lesser(largest, -b);
-    const Lanes sign_of_a = signs_of(a), sign_of_b = signs_of(b);
+    a = between(a, -largest, largest);
+    b = between(b, -largest, largest);
+    const Lanes sign_of_a = a & Lanes(-0.0f), sign_of_b = b & Lanes(-0.0f);
     const Lanes up = (largest - (a ^ sign_of_a)) - (b ^ sign_of_b);
-    const Lanes below = -lesser(up, 0.0f);  // where it is not zero, the point is on a folded corner
-    const Lanes right = a - (below ^ sign_of_a);
-    const Lanes ahead = b - (below ^ sign_of_b);
+    const Lanes below = lesser(up, 0.0f);  // where it is not zero, the point is on a folded corner
+    const Lanes right = a + (below ^ sign_of_a);
+    const Lanes ahead = b + (below ^ sign_of_b);
     const Lanes scale = inverse_roots_of(fused(right, right, fused(ahead, ahead, up * up))) & is_there;
     return {right * scale, ahead * scale, up * scale};
 }
 
-/// Decodes kLanes elements whose integers are floats.
-template <std::size_t width>
-inline void decode_directions(const float* from, float largest, float* to) {
-    if constexpr (width == 2) {
-        const Lanes first = load_lanes(from);
-        const Lanes second = load_lanes(from + kLanes);
+/// Loads kLanes pairs of integers.
+template <class T>
+inline void load_pairs(const T* from, Lanes& first, Lanes& second) {
 #if BENDY_LANES == 8
-        const Lanes lower = halves<0, 0>(first, second);
-        const Lanes upper = halves<1, 1>(first, second);
+    load_integer_pairs(from, first, second);
 #else
-        const Lanes lower = first;
-        const Lanes upper = second;
+    const Lanes lower = load_integers(from);
+    const Lanes upper = load_integers(from + kLanes);
+    first = shuffle<0, 2, 0, 2>(lower, upper);
+    second = shuffle<1, 3, 1, 3>(lower, upper);
 #endif
-        store_packed<false>(unfolded(shuffle<0, 2, 0, 2>(lower, upper), shuffle<1, 3, 1, 3>(lower, upper), largest),
-                            to);
+}
+
+/// Decodes kLanes elements.
+template <std::size_t width, class T>
+inline void decode_directions(const T* from, float* to) {
+    constexpr auto kLargest = static_cast<float>((1 << (8 * sizeof(T) - 1)) - 1);
+    if constexpr (width == 2) {
+        Lanes a, b;
+        load_pairs(from, a, b);
+        store_packed<false>(unfolded(a, b, kLargest), to);
     } else {
-        const Three element = load_three(from);
-        const Three v = unfolded(element.x, element.y, largest);
-        store_apart<4, false>(v.x, v.y, v.z, -lesser(1.0f, -element.z / Lanes(largest)), to, 4);
+        float numbers[width * kLanes];
+        for (std::size_t k = 0; k < width * kLanes; k += kLanes) store(numbers + k, load_integers(from + k));
+        const Three element = load_three(numbers);
+        const Three v = unfolded(element.x, element.y, kLargest);
+        store_apart<4, false>(v.x, v.y, v.z, -lesser(1.0f, -element.z / Lanes(kLargest)), to, 4);
     }
 }
 
-template <std::size_t width>
-inline void decode_directions_of(const DirectionsBlock& block) {
-    constexpr std::size_t kElements = kDecoded / 3;
-    const float largest = block.integers.bytes == 1 ? 127.0f : 32767.0f;
-    float numbers[kDecoded]{};
-    float decoded[4 * kElements];
-    for (std::size_t first = 0; first < block.count; first += kElements) {
-        const std::size_t count = block.count - first < kElements ? block.count - first : kElements;
-        widen(block.integers, width * first, width * count, numbers);
-        float* const out = block.to + (width + 1) * first;
-        float* const to = count == kElements ? out : decoded;
-        for (std::size_t k = 0; k < kElements; k += kLanes)
-            decode_directions<width>(numbers + width * k, largest, to + (width + 1) * k);
-        if (count < kElements) std::memcpy(out, decoded, (width + 1) * count * sizeof(float));
-    }
+template <std::size_t width, class T>
+BENDY_NOINLINE void decode_directions_of(const DirectionsBlock block) {
+    const T* const integers = static_cast<const T*>(block.integers.data);
+    std::size_t at = 0;
+    for (; at + kLanes <= block.count; at += kLanes)
+        decode_directions<width>(integers + width * at, block.to + (width + 1) * at);
+    T some[width * kLanes]{};
+    float decoded[(width + 1) * kLanes];
+    std::memcpy(some, integers + width * at, (block.count - at) * width * sizeof(T));
+    decode_directions<width>(some, decoded);
+    std::memcpy(block.to + (width + 1) * at, decoded, (block.count - at) * (width + 1) * sizeof(float));
 }
 
 inline void decode_directions_lanes(const DirectionsBlock& block) {
-    if (block.width == 2) return decode_directions_of<2>(block);
-    decode_directions_of<3>(block);
+    const bool is_short = block.integers.bytes == 2;
+    if (block.width == 2) {
+        return is_short ? decode_directions_of<2, std::int16_t>(block) : decode_directions_of<2, std::int8_t>(block);
+    }
+    is_short ? decode_directions_of<3, std::int16_t>(block) : decode_directions_of<3, std::int8_t>(block);
 }
 
 // NOLINTEND(misc-definitions-in-headers)

@@ -147,6 +147,16 @@ inline Lanes load_integers(const std::uint32_t* from) {
     const Lanes lower = _mm256_cvtepi32_ps(_mm256_and_si256(all, _mm256_set1_epi32(0xffff)));
     return fused(upper, Lanes(65536.0f), lower);
 }
+inline void load_integer_pairs(const std::int16_t* from, Lanes& first, Lanes& second) {
+    const __m256i both = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+    first = _mm256_cvtepi32_ps(_mm256_srai_epi32(_mm256_slli_epi32(both, 16), 16));
+    second = _mm256_cvtepi32_ps(_mm256_srai_epi32(both, 16));
+}
+inline void load_integer_pairs(const std::int8_t* from, Lanes& first, Lanes& second) {
+    const __m256i both = _mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)));
+    first = _mm256_cvtepi32_ps(_mm256_srai_epi32(_mm256_slli_epi32(both, 24), 24));
+    second = _mm256_cvtepi32_ps(_mm256_srai_epi32(both, 8));
+}
 
 #include "lanes.h"
 // NOLINTEND(portability-simd-intrinsics,misc-definitions-in-headers)
