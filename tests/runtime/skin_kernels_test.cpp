@@ -125,6 +125,37 @@ TEST(SkinKernels, SharedBonesGiveTheSame) {
     }
 }
 
+TEST(SkinKernels, NormalsOnTheOctahedronGiveTheSame) {
+    for (const Kernel each : kernels()) {
+        for (const std::size_t vertices : {1u, 7u, 8u, 9u, 133u}) {
+            RandomBlock random(vertices, 4, static_cast<unsigned>(vertices));
+            for (std::uint8_t& bone : random.bones8) bone %= 6;
+            const SkinPlan plan = make_skin_plan(as_mesh(random));
+            random.block.plan_first = plan.first.data();
+            random.block.plan_bones = plan.bones.data();
+            random.block.plan_weights = plan.weights.front().of;
+            std::mt19937 numbers(2);
+            std::vector<std::int8_t> folded(2 * vertices);
+            for (std::int8_t& number : folded) number = static_cast<std::int8_t>(numbers());
+            folded[0] = folded[1] = -128;
+            kernel_table(each).decode_directions({{folded.data(), 1, true}, vertices, 2, random.normals.data()});
+            for (const std::size_t positions : {0u, 3u, 5u}) {
+                for (const std::size_t tangents : {0u, 4u}) {
+                    SkinBlock floats = random.block, bytes = random.block;
+                    bytes.normals8 = folded.data();
+                    if (each == Kernel::avx2) bytes.normals = nullptr;
+                    Output expected(floats, positions, 3, tangents), found(bytes, positions, 3, tangents);
+                    kernel_table(each).skin(floats);
+                    kernel_table(each).skin(bytes);
+                    EXPECT_EQ(found.positions.memory, expected.positions.memory);
+                    EXPECT_EQ(found.normals.memory, expected.normals.memory);
+                    EXPECT_EQ(found.tangents.memory, expected.tangents.memory);
+                }
+            }
+        }
+    }
+}
+
 TEST(SkinPlan, ListsWhatAGroupFollows) {
     RandomBlock random(19, 2, 1);
     for (std::size_t v = 0; v < 19; ++v) {

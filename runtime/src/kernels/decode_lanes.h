@@ -58,20 +58,29 @@ inline void load_pairs(const T* from, Lanes& first, Lanes& second) {
 #endif
 }
 
+/// What stands for 1.
+template <class T>
+constexpr auto kLargest = static_cast<float>((1 << (8 * sizeof(T) - 1)) - 1);
+
+/// Decodes kLanes elements of two integers.
+template <class T>
+inline Three load_directions(const T* from) {
+    Lanes a, b;
+    load_pairs(from, a, b);
+    return unfolded(a, b, kLargest<T>);
+}
+
 /// Decodes kLanes elements.
 template <std::size_t width, class T>
 inline void decode_directions(const T* from, float* to) {
-    constexpr auto kLargest = static_cast<float>((1 << (8 * sizeof(T) - 1)) - 1);
     if constexpr (width == 2) {
-        Lanes a, b;
-        load_pairs(from, a, b);
-        store_packed<false>(unfolded(a, b, kLargest), to);
+        store_packed<false>(load_directions(from), to);
     } else {
         float numbers[width * kLanes];
         for (std::size_t k = 0; k < width * kLanes; k += kLanes) store(numbers + k, load_integers(from + k));
         const Three element = load_three(numbers);
-        const Three v = unfolded(element.x, element.y, kLargest);
-        store_apart<4, false>(v.x, v.y, v.z, -lesser(1.0f, -element.z / Lanes(kLargest)), to, 4);
+        const Three v = unfolded(element.x, element.y, kLargest<T>);
+        store_apart<4, false>(v.x, v.y, v.z, -lesser(1.0f, -element.z / Lanes(kLargest<T>)), to, 4);
     }
 }
 

@@ -143,6 +143,7 @@ inline Lanes load_integers(const std::int16_t* from) {
 }
 inline Lanes load_integers(const std::uint32_t* from) {
     const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+    if (_mm256_movemask_ps(_mm256_castsi256_ps(all)) == 0) return _mm256_cvtepi32_ps(all);  // below 2^31: the same bits
     const Lanes upper = _mm256_cvtepi32_ps(_mm256_srli_epi32(all, 16));
     const Lanes lower = _mm256_cvtepi32_ps(_mm256_and_si256(all, _mm256_set1_epi32(0xffff)));
     return fused(upper, Lanes(65536.0f), lower);

@@ -24,12 +24,15 @@ inline Three turned(const Three& v, Lanes signs) {
 }
 
 /// Compile-time properties of a block: which attributes are wanted (1 positions, 2 normals, 4 tangents; 0 if this is
-/// only known at run time), that outputs are packed, and that they are written past the caches.
-template <int kWanted, bool kPacked, bool kStreams>
+/// only known at run time), that outputs are packed, that they are written past the caches, and that normals are
+/// unfolded from normals8.
+template <int kWanted, bool kPacked, bool kStreams, bool kUnfolds = false>
 struct Form {
     static constexpr int wanted = kWanted;
     static constexpr bool packed = kPacked;
     static constexpr bool streams = kStreams;
+    static constexpr bool unfolds = kUnfolds;
+    using Unfolding = Form<kWanted, kPacked, kStreams, true>;
 };
 using AnyForm = Form<0, false, false>;
 
@@ -66,9 +69,12 @@ inline Lanes dot(const Lanes* a, const Three& b) {
     return fused(a[0], b.x, fused(a[1], b.y, a[2] * b.z));
 }
 
-/// The first step for a group of kLanes vertices.
-template <class F>
-BENDY_ALWAYS_INLINE void move(const Matrix& matrix, const SkinBlock& block, std::size_t vertex, Moved& moved) {
+/// The first step for a group of kLanes vertices; matrix_of(vertex) is its matrix.
+template <class F, class Blend>
+BENDY_ALWAYS_INLINE void move(const Blend& matrix_of, const SkinBlock& block, std::size_t vertex, Moved& moved) {
+    Three normals;
+    if constexpr (F::unfolds) normals = load_directions(block.normals8 + 2 * vertex);  // while registers are free
+    const Matrix& matrix = matrix_of(vertex);
     const auto& m = matrix.at;
     if (wants<F, 1>(block.out_positions)) {
         const Three v = load_three(block.positions + 3 * vertex);
@@ -83,7 +89,7 @@ BENDY_ALWAYS_INLINE void move(const Matrix& matrix, const SkinBlock& block, std:
         // Transforms by the inverse transpose except for its length: by the cofactor matrix, which also exists for a
         // singular matrix. Its rows are cross products of the matrix's rows; two of the three triple products contain
         // the cross product of row 0 and the vector.
-        const Three v = load_three(block.normals + 3 * vertex);
+        const Three v = F::unfolds ? normals : load_three(block.normals + 3 * vertex);
         const Lanes normal[3] = {v.x, v.y, v.z};
         const Three across = cross(m[0], normal);
         moved.normals = turned({dot(normal, area), dot(m[2], across), -dot(m[1], across)}, signs);
@@ -124,7 +130,7 @@ inline void fetch_ahead(const SkinBlock& block, std::size_t vertex) {
         prefetch(from + numbers * (vertex + 2 * kChunk) + 16);
     };
     fetch(block.positions, 3);
-    if (wants<F, 2>(block.out_normals)) fetch(block.normals, 3);
+    if (wants<F, 2>(block.out_normals) && !F::unfolds) fetch(block.normals, 3);
     if (wants<F, 4>(block.out_tangents)) fetch(block.tangents, 4);
 }
 
@@ -140,7 +146,7 @@ BENDY_ALWAYS_INLINE void transform(const SkinBlock& block, std::size_t vertex, s
 #if defined(BENDY_LANES_OF_X86)
         if constexpr (F::streams) fetch_ahead<F>(block, vertex + k);
 #endif
-        move<F>(matrix_of(vertex + k), block, vertex + k, moved[k / kLanes]);
+        move<F>(matrix_of, block, vertex + k, moved[k / kLanes]);
     }
     if constexpr (F::streams) {  // one attribute at a time, so that whole cache lines are written
         finish<F, 1>(moved, block, vertex, count);
@@ -165,7 +171,13 @@ BENDY_NOINLINE void transform_last(const Matrix& matrix, const SkinBlock& block,
         out = {to, numbers};
     };
     bring(positions, copy.positions, copy.out_positions, 3);
-    bring(normals, copy.normals, copy.out_normals, 3);
+    if (kLanes == 8 && block.plan_first != nullptr && block.normals8 != nullptr) {
+        decode_directions_lanes({{block.normals8 + 2 * vertex, 1, true}, count, 2, normals});
+        copy.normals = normals;
+        copy.out_normals = {normals, 3};
+    } else {
+        bring(normals, copy.normals, copy.out_normals, 3);
+    }
     bring(tangents, copy.tangents, copy.out_tangents, 4);
     transform<AnyForm>(copy, 0, kLanes, [&](std::size_t) -> const Matrix& { return matrix; });
     const auto take = [&](const float* from, const SkinOutput& out, std::size_t numbers) {
@@ -395,8 +407,11 @@ BENDY_ALWAYS_INLINE Matrix blend_planned(const SkinBlock& block, std::size_t ver
 template <class F>
 void skin_as(const SkinBlock& block) {
 #if BENDY_LANES == 8
-    if (block.plan_first != nullptr)
-        return transform_all<F>(block, [&](std::size_t vertex) { return blend_planned(block, vertex); });
+    if (block.plan_first != nullptr) {
+        const auto blend = [&](std::size_t vertex) { return blend_planned(block, vertex); };
+        if (F::wanted != 1 && block.normals8 != nullptr) return transform_all<typename F::Unfolding>(block, blend);
+        return transform_all<F>(block, blend);
+    }
 #endif
     if (block.bones8 != nullptr) {
         skin_blended<F>(block, block.bones8);

@@ -260,10 +260,11 @@ struct SkinBlock {
     /// group without bones there uses the arrays above. Ignored by kernels of four lanes.
     const std::uint32_t* plan_first;
     const std::uint16_t* plan_bones;
-    const float* plan_weights;  ///< eight for each of plan_bones, 32-byte aligned
-    const float* positions;     ///< 3 per vertex; not null if the output is wanted
-    const float* normals;       ///< 3 per vertex
-    const float* tangents;      ///< 4 per vertex
+    const float* plan_weights;    ///< eight for each of plan_bones, 32-byte aligned
+    const float* positions;       ///< 3 per vertex; not null if the output is wanted
+    const float* normals;         ///< 3 per vertex
+    const std::int8_t* normals8;  ///< null, or used instead of normals where a plan is: 2 per vertex, on the octahedron
+    const float* tangents;        ///< 4 per vertex
     SkinOutput out_positions, out_normals, out_tangents;
     bool streams;  ///< the output is large: write past the caches where its alignment allows
 };

@@ -31,6 +31,12 @@ void widen(const StreamView& weights, std::size_t first, std::size_t count, floa
     widen_as<std::uint16_t>(weights, first, count, out);
 }
 
+/// Whether SkinBlock::normals8 can have the stream.
+bool is_octahedral8(const StreamView& stream) {
+    return stream.is_octahedral && stream.normalised && stream.boxes.empty() && stream.components == 2 &&
+           stream.type == ComponentType::i8;
+}
+
 SkinOutput moved_on(const SkinOutput& out, std::size_t vertices) {
     return {out.data == nullptr ? nullptr : out.data + vertices * out.stride, out.stride};
 }
@@ -48,13 +54,17 @@ Staging::Staging(const Mesh& mesh, const SkinPlan* plan, std::span<const float> 
     positions_in_place_ = in_place(positions_, wanted.out_positions);
     normals_in_place_ = in_place(mesh.normals, wanted.out_normals);
     tangents_in_place_ = in_place(mesh.tangents, wanted.out_tangents);
-    if (plan_ != nullptr && plan_->first.empty()) plan_ = nullptr;
+    constexpr std::size_t kMost =
+        kNumbers / SkinPlan::kGroup - 10;  // influences: a group has room beside its attributes
+    if (plan_ != nullptr && (plan_->first.empty() || mesh.weights->components > kMost)) plan_ = nullptr;
+    has_normals8_ =
+        plan_ != nullptr && !normals_in_place_ && !is_shifted && mesh.normals && is_octahedral8(*mesh.normals);
+    normals_in_place_ = normals_in_place_ || has_normals8_;
     weights_in_place_ =
         !mesh.weights || mesh.weights->type == ComponentType::f32 || (plan_ != nullptr && plan_->is_complete);
     const std::size_t numbers = (positions_in_place_ ? 0u : 3u) + (normals_in_place_ ? 0u : 3u) +
                                 (tangents_in_place_ ? 0u : 4u) + (weights_in_place_ ? 0u : mesh.weights->components);
     capacity_ = numbers == 0 ? std::numeric_limits<std::size_t>::max() : kNumbers / numbers;
-    if (capacity_ < SkinPlan::kGroup) plan_ = nullptr;
     if (plan_ != nullptr) capacity_ -= capacity_ % SkinPlan::kGroup;
 }
 
@@ -89,7 +99,8 @@ void Staging::fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block)
         block.positions = bring<glm::vec3>(positions_, &MorphTargetView::positions, first, count, positions_in_place_,
                                            scratch, shifted.positions);
     }
-    if (wanted.out_normals.data != nullptr) {
+    block.normals8 = has_normals8_ ? mesh_.normals->as<std::int8_t>().data() + 2 * first : nullptr;
+    if (wanted.out_normals.data != nullptr && !has_normals8_) {
         block.normals = bring<glm::vec3>(mesh_.normals, &MorphTargetView::normals, first, count, normals_in_place_,
                                          scratch, shifted.normals);
     }

@@ -14,6 +14,7 @@ namespace bendy {
 
 /// Provides a mesh's vertices in the kernels' layout: in place if the file has plain floats and no morph target moves
 /// them; otherwise decoded and morphed, a few at a time, so that they are still in the L1 cache when they are skinned.
+/// A kernel with a plan unfolds normals of one byte itself.
 class Staging {
 public:
     /// \param plan     null if the kernel does not use it
@@ -45,6 +46,7 @@ private:
     std::optional<StreamView> positions_;
     float rest_share_ = 1.0f;  // of the mesh's own streams, beside its frames
     bool positions_in_place_ = true, normals_in_place_ = true, tangents_in_place_ = true, weights_in_place_ = true;
+    bool has_normals8_ = false;
     std::size_t capacity_ = 0;
     std::array<float, kNumbers> scratch_;
 };
