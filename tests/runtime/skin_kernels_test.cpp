@@ -140,16 +140,20 @@ TEST(SkinKernels, NormalsOnTheOctahedronGiveTheSame) {
             folded[0] = folded[1] = -128;
             kernel_table(each).decode_directions({{folded.data(), 1, true}, vertices, 2, random.normals.data()});
             for (const std::size_t positions : {0u, 3u, 5u}) {
-                for (const std::size_t tangents : {0u, 4u}) {
-                    SkinBlock floats = random.block, bytes = random.block;
+                for (const char* way : {"planned", "planned with tangents", "blended", "rigid"}) {
+                    SkinBlock floats = random.block;
+                    const std::size_t tangents = way == std::string("planned with tangents") ? 4 : 0;
+                    if (way[0] != 'p') floats.plan_first = nullptr;
+                    if (way[0] == 'r') floats.bones8 = nullptr;
+                    SkinBlock bytes = floats;
                     bytes.normals8 = folded.data();
                     if (each == Kernel::avx2) bytes.normals = nullptr;
                     Output expected(floats, positions, 3, tangents), found(bytes, positions, 3, tangents);
                     kernel_table(each).skin(floats);
                     kernel_table(each).skin(bytes);
-                    EXPECT_EQ(found.positions.memory, expected.positions.memory);
-                    EXPECT_EQ(found.normals.memory, expected.normals.memory);
-                    EXPECT_EQ(found.tangents.memory, expected.tangents.memory);
+                    EXPECT_EQ(found.positions.memory, expected.positions.memory) << way;
+                    EXPECT_EQ(found.normals.memory, expected.normals.memory) << way;
+                    EXPECT_EQ(found.tangents.memory, expected.tangents.memory) << way;
                 }
             }
         }

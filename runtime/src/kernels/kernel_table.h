@@ -39,12 +39,14 @@ struct KernelTable {
     bool flushes_denormals;  ///< treats denormal numbers as zero: see FlushDenormals
 };
 
-/// Whether any kernel has two_bones; otherwise the code that leads to it need not be built.
+/// Whether any kernel has eight lanes; otherwise the code that only these use need not be built.
 #if defined(BENDY_X86_64)
-inline constexpr bool kSolvesLimbsTogether = true;
+inline constexpr bool kHasEightLanes = true;
 #else
-inline constexpr bool kSolvesLimbsTogether = false;
+inline constexpr bool kHasEightLanes = false;
 #endif
+/// Whether any kernel has two_bones.
+inline constexpr bool kSolvesLimbsTogether = kHasEightLanes;
 
 /// Solves limbs without regard to limits.
 void two_bones_avx2(TwoBoneBlock& block);

@@ -171,7 +171,7 @@ BENDY_NOINLINE void transform_last(const Matrix& matrix, const SkinBlock& block,
         out = {to, numbers};
     };
     bring(positions, copy.positions, copy.out_positions, 3);
-    if (kLanes == 8 && block.plan_first != nullptr && block.normals8 != nullptr) {
+    if (kLanes == 8 && block.normals8 != nullptr) {
         decode_directions_lanes({{block.normals8 + 2 * vertex, 1, true}, count, 2, normals});
         copy.normals = normals;
         copy.out_normals = {normals, 3};
@@ -407,11 +407,11 @@ BENDY_ALWAYS_INLINE Matrix blend_planned(const SkinBlock& block, std::size_t ver
 template <class F>
 void skin_as(const SkinBlock& block) {
 #if BENDY_LANES == 8
-    if (block.plan_first != nullptr) {
-        const auto blend = [&](std::size_t vertex) { return blend_planned(block, vertex); };
-        if (F::wanted != 1 && block.normals8 != nullptr) return transform_all<typename F::Unfolding>(block, blend);
-        return transform_all<F>(block, blend);
+    if constexpr (F::wanted != 1 && !F::unfolds) {
+        if (block.normals8 != nullptr) return skin_as<typename F::Unfolding>(block);
     }
+    if (block.plan_first != nullptr)
+        return transform_all<F>(block, [&](std::size_t vertex) { return blend_planned(block, vertex); });
 #endif
     if (block.bones8 != nullptr) {
         skin_blended<F>(block, block.bones8);

@@ -263,7 +263,7 @@ struct SkinBlock {
     const float* plan_weights;    ///< eight for each of plan_bones, 32-byte aligned
     const float* positions;       ///< 3 per vertex; not null if the output is wanted
     const float* normals;         ///< 3 per vertex
-    const std::int8_t* normals8;  ///< null, or used instead of normals where a plan is: 2 per vertex, on the octahedron
+    const std::int8_t* normals8;  ///< null, or used instead of normals by eight lanes: 2 per vertex, on the octahedron
     const float* tangents;        ///< 4 per vertex
     SkinOutput out_positions, out_normals, out_tangents;
     bool streams;  ///< the output is large: write past the caches where its alignment allows

@@ -205,9 +205,12 @@ bool decode_with(const KernelTable& kernels, const StreamView& part, std::span<V
     }
     if (!is_boxed(part, kNumbers)) return false;
     BoxedBlock block{integers, kNumbers * out.size(), {}, {}, &out.front().x};
-    for (std::size_t k = 0; k < BoxedBlock::kPattern; ++k) {
-        block.minimum[k] = part.boxes[k % kNumbers].minimum;
-        block.step[k] = part.boxes[k % kNumbers].step;
+    for (std::size_t c = 0; c < kNumbers; ++c) {
+        const auto [minimum, step] = part.boxes[c];
+        for (std::size_t k = c; k < BoxedBlock::kPattern; k += kNumbers) {
+            block.minimum[k] = minimum;
+            block.step[k] = step;
+        }
     }
     kernels.decode_boxed(block);
     return true;

@@ -147,7 +147,7 @@ bool skin_by_dual_quaternions(PoseState& state, std::uint32_t mesh, std::uint32_
     if (!dual.are_good) return false;
     SkinBlock wanted = outputs;
     wanted.palette = dual.is_stretched ? dual.stretches.data() : nullptr;
-    Staging staging(data.object.meshes[mesh], nullptr, weights, state.active_targets, wanted);
+    Staging staging(data.object.meshes[mesh], nullptr, false, weights, state.active_targets, wanted);
     DualKernel* const kernel = kernel_table().dual;
     DualBlock block{wanted, dual.motions.data(), static_cast<float>(dual.scale)};
     for (std::size_t first = 0; first < wanted.vertices; first += block.vertices.vertices) {

@@ -58,7 +58,7 @@ public:
 private:
     void run(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted, std::size_t first, std::size_t count) const;
     void run_apart(SkinKernel* kernel, Staging& staging, const SkinBlock& wanted) const;
-    void skin_rigid(std::uint32_t mesh, Staging& staging, const SkinBlock& wanted);
+    void skin_rigid(std::uint32_t mesh, SkinKernel* kernel, Staging& staging, const SkinBlock& wanted);
 
     PoseState& state_;
     const ModelData& data_;
@@ -103,7 +103,7 @@ void Skinning::run_apart(SkinKernel* kernel, Staging& staging, const SkinBlock& 
     }
 }
 
-void Skinning::skin_rigid(std::uint32_t mesh, Staging& staging, const SkinBlock& wanted) {
+void Skinning::skin_rigid(std::uint32_t mesh, SkinKernel* kernel, Staging& staging, const SkinBlock& wanted) {
     const std::size_t vertices = wanted.vertices;
     const bool has_one_mover = data_.movers[mesh].per_vertex.empty();
     for (std::size_t first = 0; first < vertices;) {
@@ -114,7 +114,7 @@ void Skinning::skin_rigid(std::uint32_t mesh, Staging& staging, const SkinBlock&
             run(copy_block, staging, wanted, first, end - first);
         } else {
             state_.make_rigid_palette(joint);
-            run(kernel_table().skin, staging, wanted, first, end - first);
+            run(kernel, staging, wanted, first, end - first);
         }
         first = end;
     }
@@ -136,17 +136,20 @@ void Skinning::skin_mesh(std::uint32_t mesh_number, std::uint32_t vertices, std:
     }
     wanted.palette = state_.palette.data();
     wanted.streams = vertices >= kManyVertices;
+    const Kernel chosen = kernel();
+    const bool has_eight_lanes = kHasEightLanes && chosen == Kernel::avx2;
+    SkinKernel* const skin = kernel_table(chosen).skin;
     if (mesh.is_rigid()) {
-        Staging staging(mesh, nullptr, weights, state_.active_targets, wanted);
-        skin_rigid(mesh_number, staging, wanted);
+        const bool moves = data_.movers[mesh_number].per_vertex.empty() && data_.rigid_mover(mesh_number, 0) != kNone;
+        Staging staging(mesh, nullptr, has_eight_lanes && moves, weights, state_.active_targets, wanted);
+        skin_rigid(mesh_number, skin, staging, wanted);
         return;
     }
     const bool is_finite = state_.make_palette(mesh_number);
-    const Kernel chosen = kernel();
-    const bool has_plan = is_finite && chosen == Kernel::avx2;
-    Staging staging(mesh, has_plan ? &data_.skin_plans[mesh_number] : nullptr, weights, state_.active_targets, wanted);
-    if (!is_finite) return run_apart(kernel_table(chosen).skin, staging, wanted);
-    run(kernel_table(chosen).skin, staging, wanted, 0, vertices);
+    const SkinPlan* const plan = is_finite && has_eight_lanes ? &data_.skin_plans[mesh_number] : nullptr;
+    Staging staging(mesh, plan, has_eight_lanes, weights, state_.active_targets, wanted);
+    if (!is_finite) return run_apart(skin, staging, wanted);
+    run(skin, staging, wanted, 0, vertices);
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ SkinOutput moved_on(const SkinOutput& out, std::size_t vertices) {
 
 }  // namespace
 
-Staging::Staging(const Mesh& mesh, const SkinPlan* plan, std::span<const float> weights, std::span<ActiveTarget> room,
-                 const SkinBlock& wanted)
+Staging::Staging(const Mesh& mesh, const SkinPlan* plan, bool unfolds, std::span<const float> weights,
+                 std::span<ActiveTarget> room, const SkinBlock& wanted)
     : mesh_(mesh), plan_(plan), active_(find_active_targets(mesh, weights, room)), positions_(mesh.positions) {
     const bool is_shifted = !active_.empty();
     rest_share_ = is_shifted ? rest_share(mesh, weights) : 1.0f;
@@ -54,17 +54,15 @@ Staging::Staging(const Mesh& mesh, const SkinPlan* plan, std::span<const float> 
     positions_in_place_ = in_place(positions_, wanted.out_positions);
     normals_in_place_ = in_place(mesh.normals, wanted.out_normals);
     tangents_in_place_ = in_place(mesh.tangents, wanted.out_tangents);
-    constexpr std::size_t kMost =
-        kNumbers / SkinPlan::kGroup - 10;  // influences: a group has room beside its attributes
-    if (plan_ != nullptr && (plan_->first.empty() || mesh.weights->components > kMost)) plan_ = nullptr;
-    has_normals8_ =
-        plan_ != nullptr && !normals_in_place_ && !is_shifted && mesh.normals && is_octahedral8(*mesh.normals);
+    has_normals8_ = unfolds && !normals_in_place_ && !is_shifted && mesh.normals && is_octahedral8(*mesh.normals);
     normals_in_place_ = normals_in_place_ || has_normals8_;
+    if (plan_ != nullptr && plan_->first.empty()) plan_ = nullptr;
     weights_in_place_ =
         !mesh.weights || mesh.weights->type == ComponentType::f32 || (plan_ != nullptr && plan_->is_complete);
     const std::size_t numbers = (positions_in_place_ ? 0u : 3u) + (normals_in_place_ ? 0u : 3u) +
                                 (tangents_in_place_ ? 0u : 4u) + (weights_in_place_ ? 0u : mesh.weights->components);
     capacity_ = numbers == 0 ? std::numeric_limits<std::size_t>::max() : kNumbers / numbers;
+    if (capacity_ < SkinPlan::kGroup) plan_ = nullptr;
     if (plan_ != nullptr) capacity_ -= capacity_ % SkinPlan::kGroup;
 }
 

@@ -14,15 +14,16 @@ namespace bendy {
 
 /// Provides a mesh's vertices in the kernels' layout: in place if the file has plain floats and no morph target moves
 /// them; otherwise decoded and morphed, a few at a time, so that they are still in the L1 cache when they are skinned.
-/// A kernel with a plan unfolds normals of one byte itself.
+/// A kernel may unfold normals of one byte itself.
 class Staging {
 public:
     /// \param plan     null if the kernel does not use it
+    /// \param unfolds  whether the kernel takes SkinBlock::normals8
     /// \param weights  of the mesh's targets
     /// \param room     for the active ones: as many as the mesh has targets
     /// \param wanted   only its outputs are read
-    Staging(const Mesh& mesh, const SkinPlan* plan, std::span<const float> weights, std::span<ActiveTarget> room,
-            const SkinBlock& wanted);
+    Staging(const Mesh& mesh, const SkinPlan* plan, bool unfolds, std::span<const float> weights,
+            std::span<ActiveTarget> room, const SkinBlock& wanted);
 
     /// The maximum number of vertices per call of fill().
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
