@@ -52,6 +52,7 @@ fetch_aarch64() {
 build_library() { # build_library NAME SOURCES [CMAKE-OPTION...]: a library into the root
     local build=$here/$system/build_$1 source=$2 launcher=()
     shift 2
+    rm -rf "$build" # its cache has the flags of the last time
     if [[ $system != web* ]] && command -v ccache >/dev/null; then
         export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
         launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
