@@ -34,6 +34,7 @@ import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { DRACOLoader } from 'three/addons/loaders/DRACOLoader.js';
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
+import { init } from '/dist/index.js';
 import { BendyLoader } from '/dist/three/index.js';
 
 const renderer = new THREE.WebGLRenderer();
@@ -46,7 +47,7 @@ const gltf = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).setDRACOLoader(d
 const bendy = new BendyLoader();
 const [, decoder] = location.search.split('?');
 if (decoder === 'draco') draco.preload();
-if (decoder === 'bendy') bendy.preload();
+if (decoder === 'bendy') init({ wasm: '/dist/bendy.wasm' });
 
 /** Milliseconds until the GPU has drawn the first frame. */
 globalThis.measure = async (name) => {

@@ -235,10 +235,13 @@ export class BendyAnimator {
     const { joints } = this.character;
     const { locals } = this.pose;
     const move = (k: number): void => {
-      const joint = joints[k]!;
-      joint.quaternion.fromArray(locals, 10 * k);
-      joint.position.fromArray(locals, 10 * k + 4);
-      joint.scale.fromArray(locals, 10 * k + 7);
+      const { quaternion, position, scale } = joints[k]!;
+      const at = 10 * k;
+      // three.js computes Euler angles whenever a quaternion is set.
+      const { x, y, z, w } = quaternion;
+      if (x !== locals[at] || y !== locals[at + 1] || z !== locals[at + 2] || w !== locals[at + 3]) quaternion.fromArray(locals, at);
+      position.fromArray(locals, at + 4);
+      scale.fromArray(locals, at + 7);
     };
     if (moved === null) for (let k = 0; k < joints.length; ++k) move(k);
     else for (const k of moved) move(k);
