@@ -22,7 +22,7 @@ systems=(web web-plain)
 mkdir -p bindings/web/src/generated
 for system in "${systems[@]}"; do
     scripts/cross_dependencies.sh "$system"
-    cmake --preset "$system" >/dev/null
+    cmake --fresh --preset "$system" >/dev/null # flags of a toolchain are read once
     cmake --build --preset "$system"
 done
 cp build/cross/web/build/web/{bindings,classes}.ts bindings/web/src/generated/

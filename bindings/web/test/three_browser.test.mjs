@@ -31,6 +31,7 @@ const jobs = [
   { file: 'models/fox.glb', clip: 1, isCrowd: true },
   { file: 'models/robot.glb', clip: 0, isCrowd: true },
   { file: 'generated/joints8.glb', clip: 0, isCrowd: true },
+  { file: 'generated/morph_and_skin.glb', clip: 0, isCrowd: true },
 ];
 
 test('pictures', { skip: missing.length > 0 && `needs ${missing.join(', ')}`, timeout: 300_000 }, async (context) => {

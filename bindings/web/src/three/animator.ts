@@ -44,7 +44,7 @@ export interface AnimatorOptions {
   /**
    * Which objects of joints move. `all`, if not given: each. `needed`: those that carry something, such as a sword that you attached, with
    * the joints above them. The skinned meshes then take the runtime's palettes, which is faster; what else reads joints, such as
-   * raycasts and SkeletonHelper, needs `updateJoints` before.
+   * raycasts and SkeletonHelper, needs `updateJoints` before. With `wasm`, all joints move.
    */
   joints?: 'all' | 'needed';
 }
@@ -259,6 +259,7 @@ export class BendyAnimator {
 
   /** Releases the animator's memory. Vertices that the runtime has skinned are skinned by three.js again. */
   dispose(): void {
+    if (this.#palettes !== null && !this.pose.disposed) this.#moveJoints(null); // the pose stays
     this.#palettes?.dispose();
     for (const { object, geometry, skeleton, wasCulled } of this.#skinned) {
       const { drawRange } = object.geometry;

@@ -27,7 +27,7 @@ export interface BendyCharacter {
   userData: Record<string, unknown>;
   /**
    * The model that the runtime poses. When it has been disposed, the scene and the animations stay usable: the file's memory is released
-   * when the tracks of all of them have been read, or nothing refers to them any more.
+   * when the tracks of all of them have been read or set, `clip.tracks = []`, or when the garbage collector finds the animations.
    */
   model: Model;
   /** The object of each joint, numbered as in the model: a Bone if a skin uses it. */
@@ -161,7 +161,8 @@ export function cloneCharacter(character: BendyCharacter): BendyCharacter {
   const skeletons = new Map<Skeleton, Skeleton>();
   for (const { object } of character.parts) {
     if (!(object instanceof SkinnedMesh)) continue;
-    const copy = copies.get(object) as SkinnedMesh;
+    const copy = copies.get(object) as SkinnedMesh | undefined;
+    if (copy === undefined) continue; // taken out of the scene
     const shared = skeletons.get(object.skeleton);
     if (shared === undefined) skeletons.set(object.skeleton, copy.skeleton);
     else copy.bind(shared, copy.bindMatrix);

@@ -155,11 +155,12 @@ function makeTracks(model: Model, clip: Clip, joints: readonly Object3D[], parts
   });
 }
 
-/** Makes a clip whose tracks are made when they are first read. */
-export function lazyClip(name: string, duration: number, make: () => KeyframeTrack[]): AnimationClip {
+/** Makes a clip whose tracks are made when they are first read. `done` is called when they have been made, or others set. */
+export function lazyClip(name: string, duration: number, make: () => KeyframeTrack[], done?: () => void): AnimationClip {
   const clip = new AnimationClip(name, duration, []);
   const set = (tracks: KeyframeTrack[]): KeyframeTrack[] => {
     Object.defineProperty(clip, 'tracks', { value: tracks, writable: true, enumerable: true, configurable: true });
+    done?.();
     return tracks;
   };
   Object.defineProperty(clip, 'tracks', { get: () => set(make()), set, enumerable: true, configurable: true });
@@ -171,12 +172,12 @@ export function makeClips(model: Model, joints: readonly Object3D[], parts: read
   if (model.clips.length === 0) return [];
   const source = model.share();
   let unread = model.clips.length;
+  const done = (): void => {
+    if (--unread === 0) source.dispose();
+  };
   return model.clips.map(({ name, number, end, extras }) => {
-    const made = lazyClip(name || `animation_${number}`, end, () => {
-      const tracks = makeTracks(source, source.clips[number]!, joints, parts);
-      if (--unread === 0) source.dispose();
-      return tracks;
-    });
+    const make = (): KeyframeTrack[] => makeTracks(source, source.clips[number]!, joints, parts);
+    const made = lazyClip(name || `animation_${number}`, end, make, done);
     if (typeof extras === 'object') made.userData = { ...extras };
     return made;
   });

@@ -20,7 +20,7 @@ import { described } from '../errors.js';
 import { checkIndex } from '../items.js';
 import type { BendyCharacter } from './character.js';
 import { none } from '../runtime.js';
-import { type Part, withIndex } from './parts.js';
+import { isSkinnedByRuntime, type Part, withIndex } from './parts.js';
 
 /** Options of `BendyCrowd.play`. */
 export interface CrowdPlayOptions {
@@ -41,20 +41,23 @@ interface Playing {
   time: number;
 }
 
+const matricesInRow = 512; // 2,048 texels, which every WebGL 2 has
+const influencesInSet = 4;
+const longest = 1e15; // seconds, so that no time becomes infinite
+const mostInfluences = 8; // WebGL has 16 attributes, of which the place of a member takes four
+
 /** Why a crowd cannot draw a part; null if it can. */
-function refusal(object: Part['object'], mesh: Mesh): string | null {
+function refusal({ scene }: BendyCharacter, object: Part['object'], mesh: Mesh): string | null {
   if (!('isMesh' in object)) return 'consists of lines or points';
+  if (mesh.influenceCount > mostInfluences) return `has ${mesh.influenceCount} influences a vertex, more than ${mostInfluences}`;
+  if (isSkinnedByRuntime(object, scene)) return "is skinned by a BendyAnimator: skin: 'wasm'";
   const isMovedBySeveral = mesh.isRigid && mesh.mover === null && mesh.movers().some((joint) => joint !== none);
   return isMovedBySeveral ? 'has no bones and is moved by several joints' : null;
 }
 
-const matricesInRow = 512; // 2,048 texels, which every WebGL 2 has
-const influencesInSet = 4;
-
-/** The influences of a mesh as attributes, four to each. */
-function addInfluences(geometry: BufferGeometry, { vertexCount, influenceCount, bones, weights }: Mesh): number {
-  const sets = Math.ceil(influenceCount / influencesInSet);
-  for (let set = 0; set < sets; ++set) {
+/** The influences of a mesh as attributes, four to each: bones and weights of the first, of the second. */
+function influencesOf({ vertexCount, influenceCount, bones, weights }: Mesh): BufferAttribute[] {
+  return Array.from({ length: Math.ceil(influenceCount / influencesInSet) }, (_, set) => {
     const [setBones, setWeights] = [new Float32Array(influencesInSet * vertexCount), new Float32Array(influencesInSet * vertexCount)];
     const end = Math.min(influencesInSet, influenceCount - influencesInSet * set);
     for (let vertex = 0; vertex < vertexCount; ++vertex) {
@@ -64,10 +67,8 @@ function addInfluences(geometry: BufferGeometry, { vertexCount, influenceCount, 
         setWeights[influencesInSet * vertex + k] = weights[from]!;
       }
     }
-    geometry.setAttribute(`crowdBones${set}`, new BufferAttribute(setBones, influencesInSet));
-    geometry.setAttribute(`crowdWeights${set}`, new BufferAttribute(setWeights, influencesInSet));
-  }
-  return sets;
+    return [setBones, setWeights].map((numbers) => new BufferAttribute(numbers, influencesInSet));
+  }).flat();
 }
 
 /** Declares crowdSkin(), the matrix of a vertex: the weighted sum of its bones' matrices, or the only one of a rigid mesh. */
@@ -124,7 +125,7 @@ function patch<T extends Material>(material: T, sets: number, uniforms: Record<s
  *     // each frame
  *     crowd.update(seconds);
  *
- * Morph targets keep their rest weights. Members are neither culled nor hit by raycasts one by one.
+ * Morph targets keep their rest weights. Raycasts hit no member, and all members are drawn, whether the camera sees them or not.
  */
 export class BendyCrowd extends Group {
   readonly character: BendyCharacter;
@@ -136,17 +137,19 @@ export class BendyCrowd extends Group {
   readonly #matrices: DataTexture;
   readonly #places: InstancedBufferAttribute;
   readonly #playing: (Playing | null)[];
+  readonly #influences = new Map<Mesh, BufferAttribute[]>();
 
   /**
-   * Makes a crowd at rest, with all members at the origin. Throws OUT_OF_MEMORY, DISPOSED; BAD_ARGUMENT for a negative size, for lines
-   * and points, and for a mesh without bones that several joints move.
+   * Makes a crowd at rest, with all members at the origin, of copies of the character's materials and of its present level of detail.
+   * Throws OUT_OF_MEMORY, DISPOSED; BAD_ARGUMENT for a negative size, for lines and points, for more than eight influences a vertex, for a
+   * character whose vertices a BendyAnimator skins, and for a mesh without bones that several joints move.
    */
   constructor(character: BendyCharacter, size: number) {
     super();
     const model = character?.model as BendyCharacter['model'] | undefined;
     if (model === undefined) throw new BendyError('bad_argument', `expected the result of BendyLoader, found ${described(character)}`);
     for (const { object, mesh } of character.parts) {
-      const why = refusal(object, model.meshes[mesh]!);
+      const why = refusal(character, object, model.meshes[mesh]!);
       if (why !== null) throw new BendyError('bad_argument', `a crowd cannot draw ${object.name}, which ${why}`);
     }
     this.#crowd = new Crowd(model, size);
@@ -164,10 +167,13 @@ export class BendyCrowd extends Group {
   }
 
   #makePart(object: { geometry: BufferGeometry; material: Material | Material[]; name: string }, mesh: Mesh): InstancedMesh {
-    const geometry = withIndex(object.geometry, object.geometry.index);
+    const geometry = withIndex(object.geometry, object.geometry.index!.clone()); // a level of detail changes the character's
     geometry.deleteAttribute('skinIndex');
     geometry.deleteAttribute('skinWeight');
-    const sets = mesh.isRigid ? 0 : addInfluences(geometry, mesh);
+    const influences = this.#influences.get(mesh) ?? influencesOf(mesh);
+    this.#influences.set(mesh, influences);
+    influences.forEach((attribute, k) => geometry.setAttribute(`crowd${k % 2 === 0 ? 'Bones' : 'Weights'}${k >> 1}`, attribute));
+    const sets = influences.length / 2;
     const uniforms = {
       crowdMatrices: { value: this.#matrices },
       crowdFirst: { value: this.#crowd.firstMatrix(mesh) },
@@ -176,7 +182,9 @@ export class BendyCrowd extends Group {
     const part = new InstancedMesh(geometry, patch((object.material as Material).clone(), sets, uniforms), this.size);
     part.name = object.name;
     part.instanceMatrix = this.#places;
-    part.frustumCulled = false; // its bounds are those of one member at rest
+    part.frustumCulled = false; // its bounds are those of one member at rest,
+    part.raycast = () => {}; // and so are its triangles
+    if (mesh.morphTargets.length > 0) part.morphTargetInfluences = mesh.morphTargets.map(({ restWeight }) => restWeight);
     // Releases before 182 store depths in colours.
     const depth = Number.parseInt(REVISION) < 182 ? new MeshDepthMaterial({ depthPacking: RGBADepthPacking }) : new MeshDepthMaterial();
     part.customDepthMaterial = patch(depth, sets, uniforms);
@@ -216,7 +224,7 @@ export class BendyCrowd extends Group {
       }
       const { clip, speed, loop } = playing;
       const length = clip.seconds;
-      const time = playing.time + seconds * speed;
+      const time = Math.min(Math.max(playing.time + seconds * speed, -longest), longest);
       playing.time = !loop || length <= 0 ? Math.min(Math.max(time, 0), length) : time - length * Math.floor(time / length);
       this.#crowd.set(member, clip.number, clip.start + playing.time);
     }

@@ -3,6 +3,7 @@ import { Matrix4, type Object3D, type Skeleton, SkinnedMesh } from 'three';
 import type { Pose } from '../index.js';
 import type { BendyCharacter } from './character.js';
 import { BlendedSkeleton } from './influences.js';
+import { isSkinnedByRuntime } from './parts.js';
 
 /** Multiplies affine matrices, which are stored column by column, by another from the left. */
 function multiply(by: Matrix4, matrices: Float32Array, out: Float32Array): void {
@@ -26,39 +27,48 @@ interface Drawn {
   readonly skeleton: Skeleton;
   readonly mesh: number;
   readonly palette: Float32Array;
+  /** What three.js calls before it draws. */
+  readonly update: () => void;
 }
-
-const stay = (): void => {};
 
 /** @internal The skeletons of a character, which take palettes, and the joints that have to move all the same. */
 export class Palettes {
   readonly #character: BendyCharacter;
   readonly #drawn: Drawn[] = [];
   readonly #isJoint: ReadonlySet<Object3D>;
+  readonly #isPart: ReadonlySet<Object3D>;
   readonly #parents: readonly (number | null)[];
   readonly #children: Int32Array;
+  readonly #stay = (): void => {}; // of its own, so that another animator's stays
   #moved: number[] = [];
   #resting: Object3D[] = [];
 
   constructor(character: BendyCharacter) {
     this.#character = character;
     this.#isJoint = new Set(character.joints);
+    this.#isPart = new Set(character.parts.map(({ object }) => object));
     this.#parents = character.model.joints.map(({ parent }) => parent);
     this.#children = new Int32Array(character.joints.length).fill(-1);
+    character.scene.updateMatrixWorld(true);
     const seen = new Set<Skeleton>();
     for (const { object, mesh } of character.parts) {
-      if (!(object instanceof SkinnedMesh) || seen.has(object.skeleton)) continue;
+      if (!(object instanceof SkinnedMesh)) continue;
+      // three.js would compute them at the first picture, of joints that rest.
+      if (object.boundingSphere === null) object.computeBoundingSphere();
+      if (object.boundingBox === null) object.computeBoundingBox();
       const { skeleton } = object;
+      if (seen.has(skeleton) || isSkinnedByRuntime(object, character.scene)) continue;
       seen.add(skeleton);
       const palette = new Float32Array(16 * skeleton.bones.length);
-      this.#drawn.push({ skeleton, mesh, palette });
-      skeleton.update = () => {
+      const update = (): void => {
         const { matrixWorld } = character.scene;
         if (matrixWorld.equals(identity)) skeleton.boneMatrices!.set(palette);
         else multiply(matrixWorld, palette, skeleton.boneMatrices!);
         if (skeleton instanceof BlendedSkeleton) skeleton.blend();
         if (skeleton.boneTexture !== null) skeleton.boneTexture.needsUpdate = true;
       };
+      skeleton.update = update;
+      this.#drawn.push({ skeleton, mesh, palette, update });
     }
   }
 
@@ -76,7 +86,7 @@ export class Palettes {
     this.wake();
     const moves = joints.map((joint, k) => {
       this.#children[k] = joint.children.length;
-      return 'isMesh' in joint || joint.children.some((child) => !this.#isJoint.has(child));
+      return this.#isPart.has(joint) || joint.children.some((child) => !this.#isJoint.has(child));
     });
     for (let k = joints.length - 1; k >= 0; --k) {
       const parent = this.#parents[k]!;
@@ -89,12 +99,14 @@ export class Palettes {
 
   /** three.js leaves out the joints that carry nothing, and what is below them, when it updates the scene. */
   rest(): void {
-    for (const joint of this.#resting) joint.updateMatrixWorld = stay;
+    for (const joint of this.#resting) joint.updateMatrixWorld = this.#stay;
   }
 
   /** Ends that. */
   wake(): void {
-    for (const joint of this.#resting) delete (joint as Partial<Object3D>).updateMatrixWorld;
+    for (const joint of this.#resting) {
+      if (joint.updateMatrixWorld === this.#stay) delete (joint as Partial<Object3D>).updateMatrixWorld;
+    }
   }
 
   /** Copies the palettes of a pose. */
@@ -105,6 +117,6 @@ export class Palettes {
   /** Gives the skeletons back to three.js. */
   dispose(): void {
     this.wake();
-    for (const { skeleton } of this.#drawn) delete (skeleton as Partial<Skeleton>).update;
+    for (const { skeleton, update } of this.#drawn) if (skeleton.update === update) delete (skeleton as Partial<Skeleton>).update;
   }
 }

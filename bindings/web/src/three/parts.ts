@@ -7,6 +7,7 @@ import {
   type Material,
   Matrix4,
   Mesh as ThreeMesh,
+  type Object3D,
   Points,
   Skeleton,
   SkinnedMesh,
@@ -89,6 +90,11 @@ export function withIndex(shared: BufferGeometry, index: BufferAttribute | null)
   geometry.setIndex(index);
   geometry.setDrawRange(shared.drawRange.start, shared.drawRange.count);
   return geometry;
+}
+
+/** Whether an animator has given an object vertices in model space, and one bone that carries them to the world. */
+export function isSkinnedByRuntime(object: Part['object'], scene: Object3D): boolean {
+  return object instanceof SkinnedMesh && object.skeleton.bones[0] === scene;
 }
 
 function makeObject(

@@ -123,6 +123,7 @@ export class Stage {
         material.dispose();
       }
     }
+    for (const clip of character.animations) clip.tracks = []; // which would keep the file
     character.model.dispose();
     [this.#character, this.#animator] = [null, null];
   }
