@@ -270,7 +270,11 @@ void narrow(test::MeshSpec& mesh) {
     mesh.tangents.clear();
 }
 
-/// 300 vertices of four bones, in a form of each stream; with targets, dense and sparse.
+/// More vertices than are staged at a time, and not whole groups of eight.
+constexpr std::uint32_t kVertices = 1301;
+
+/// Vertices of four bones, in a form of each stream; every third group follows few bones. With targets, dense and
+/// sparse.
 template <class Bone, class Weight>
 Buffer file_of(bool has_targets, bool is_narrow = false) {
     std::mt19937 random(9);
@@ -295,18 +299,18 @@ Buffer file_of(bool has_targets, bool is_narrow = false) {
     std::vector<Weight> weights;
     std::vector<float> shifts;
     std::vector<std::uint32_t> touched;
-    for (std::uint32_t v = 0; v < 300; ++v) {
+    for (std::uint32_t v = 0; v < kVertices; ++v) {
         mesh.positions.push_back(vector());
         mesh.normals.push_back(glm::normalize(vector()));
         mesh.tangents.push_back(glm::vec4(glm::normalize(vector()), 1.0f));
         for (int k = 0; k < 4; ++k) {
-            bones.push_back(static_cast<Bone>(random() % 20));
+            bones.push_back(static_cast<Bone>(random() % (v / 8 % 3 == 0 ? 3 : 20)));
             constexpr float kOne = std::is_same_v<Weight, float> ? 1.0f : std::numeric_limits<Weight>::max();
             weights.push_back(static_cast<Weight>((k == 0 ? 0.4f : 0.2f) * kOne));
         }
         if (v % 7 == 3) touched.push_back(v);
     }
-    for (std::uint32_t k = 0; k < 900; ++k) shifts.push_back(number(random));
+    for (std::uint32_t k = 0; k < 3 * kVertices; ++k) shifts.push_back(number(random));
     mesh.more = {test::make_leaf(FourCC("BONE"), test::stream_payload<Bone>(4, bones)),
                  weights_leaf<Weight>(4, weights), test::palette_leaf(joints, bind)};
     if (has_targets) {
@@ -384,6 +388,36 @@ TEST(SkinStreams, TargetsMoveBlockByBlock) {
 TEST(SkinStreams, BoxesAndTheOctahedron) {
     expect_as_defined(file_of<std::uint8_t, float>(false, true));
     expect_as_defined(file_of<std::uint16_t, float>(true, true));
+}
+
+TEST(SkinStreams, NormalsOnTheOctahedronOfMeshesWithoutBones) {
+    for (const std::uint32_t joint : {kNone, 1u}) {
+        test::ModelSpec spec;
+        spec.joints.resize(2);
+        spec.joints[1].rest.rotation = {0.0f, 0.0f, 1.0f, 0.0f};  // x and y change their signs
+        test::MeshSpec& mesh = spec.meshes.emplace_back();
+        mesh.joint = joint;
+        mesh.positions.resize(kVertices);
+        std::vector<std::int8_t> normals(2 * std::size_t{kVertices});
+        std::mt19937 random(3);
+        for (std::int8_t& number : normals) number = static_cast<std::int8_t>(random() % 255 - 127);
+        mesh.more = {test::make_leaf(FourCC("NORM"), test::stream_payload<std::int8_t>(2, normals, true))};
+        const test::Owned model{test::build_file(spec)};
+        std::vector<glm::vec3> expected(kVertices), found(kVertices), positions(kVertices);
+        model->meshes()[0].normals->decode(std::span(expected));
+        const Kernel before = kernel();
+        for (const Kernel each : kernels()) {
+            ASSERT_TRUE(set_kernel(each));
+            Pose pose(*model);
+            ASSERT_TRUE(skin(pose, {.out = {positions, found, {}}}));
+            const float sign = joint == kNone ? 1.0f : -1.0f;
+            for (std::uint32_t v = 0; v < kVertices; ++v) {
+                const glm::vec3 normal = expected[v] * glm::vec3(sign, sign, 1.0f);
+                for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[v][c], normal[c], 1e-6) << kernel_name(each);
+            }
+        }
+        EXPECT_TRUE(set_kernel(before));
+    }
 }
 
 // --- the caller's layout

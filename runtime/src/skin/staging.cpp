@@ -62,8 +62,15 @@ Staging::Staging(const Mesh& mesh, const SkinPlan* plan, bool unfolds, std::span
     const std::size_t numbers = (positions_in_place_ ? 0u : 3u) + (normals_in_place_ ? 0u : 3u) +
                                 (tangents_in_place_ ? 0u : 4u) + (weights_in_place_ ? 0u : mesh.weights->components);
     capacity_ = numbers == 0 ? std::numeric_limits<std::size_t>::max() : kNumbers / numbers;
-    if (capacity_ < SkinPlan::kGroup) plan_ = nullptr;
-    if (plan_ != nullptr) capacity_ -= capacity_ % SkinPlan::kGroup;
+    // Whatever the outputs, so that a vertex has the same bits beside any others.
+    const bool fits_groups = weights_in_place_ || (kStreams + mesh.weights->components) * SkinPlan::kGroup <= kNumbers;
+    if (!fits_groups) plan_ = nullptr;
+    for (const std::size_t whole : {kAligned, SkinPlan::kGroup}) {
+        if (capacity_ >= whole) {
+            capacity_ -= capacity_ % whole;
+            break;
+        }
+    }
 }
 
 template <class Vector>

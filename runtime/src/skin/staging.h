@@ -32,7 +32,10 @@ public:
     void fill(std::size_t first, const SkinBlock& wanted, SkinBlock& block);
 
 private:
-    static constexpr std::size_t kNumbers = 6144;  // 24 KiB: at least 1 vertex of kMaxInfluences
+    static constexpr std::size_t kNumbers = 6144;  // 24 KiB
+    static constexpr std::size_t kStreams = 3 + 3 + 4;
+    static_assert(kNumbers >= kStreams + kMaxInfluences);
+    static constexpr std::size_t kAligned = 64;  // vertices, after which outputs are aligned as before
 
     /// \param scratch  the free part of scratch_; loses what is taken
     /// \param shifted  becomes the vectors that morph targets displace, if there are any
