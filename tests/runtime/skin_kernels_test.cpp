@@ -257,7 +257,12 @@ void narrow(test::MeshSpec& mesh) {
     }
     const std::vector<std::uint8_t> weights = [&] {
         std::vector<std::uint8_t> four;
-        for (std::size_t v = 0; v < mesh.positions.size(); ++v) four.insert(four.end(), {0, 64, 128, 64});
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+            if (v * v / 7 % 2 == 0)
+                four.insert(four.end(), {0, 64, 128, 64});
+            else
+                four.insert(four.end(), {0, 128, 32, 96});
+        }
         return four;
     }();
     std::erase_if(mesh.more, [](const test::Node& node) { return node.id == FourCC("WGHT"); });
@@ -303,10 +308,11 @@ Buffer file_of(bool has_targets, bool is_narrow = false) {
         mesh.positions.push_back(vector());
         mesh.normals.push_back(glm::normalize(vector()));
         mesh.tangents.push_back(glm::vec4(glm::normalize(vector()), 1.0f));
+        const int most = static_cast<int>(random() % 4);
         for (int k = 0; k < 4; ++k) {
             bones.push_back(static_cast<Bone>(random() % (v / 8 % 3 == 0 ? 3 : 20)));
             constexpr float kOne = std::is_same_v<Weight, float> ? 1.0f : std::numeric_limits<Weight>::max();
-            weights.push_back(static_cast<Weight>((k == 0 ? 0.4f : 0.2f) * kOne));
+            weights.push_back(static_cast<Weight>((k == most ? 0.4f : 0.2f) * kOne));
         }
         if (v % 7 == 3) touched.push_back(v);
     }
