@@ -32,6 +32,8 @@ const jobs = [
   { file: 'models/robot.glb', clip: 0, isCrowd: true },
   { file: 'generated/joints8.glb', clip: 0, isCrowd: true },
   { file: 'generated/morph_and_skin.glb', clip: 0, isCrowd: true },
+  { file: 'generated/rigid_attachments.glb', clip: 0, isCrowd: true },
+  { file: 'models/box_animated.gltf', clip: 0, isCrowd: true },
 ];
 
 test('pictures', { skip: missing.length > 0 && `needs ${missing.join(', ')}`, timeout: 300_000 }, async (context) => {

@@ -179,22 +179,40 @@ test('a character that is moved later is inside its bounds, and drawn by the new
   assert.ok(cloneCharacter(character).joints.length > 0);
 });
 
-test('joints that are lines or points themselves move', async () => {
+/** Writes a file of one triangle, or of its corners as points, that a clip moves by 5 within a second, and returns its path. */
+function writeMoving(mode) {
   const gltf = JSON.parse(readFileSync(writeTwoImages(), 'utf8'));
   const times = Buffer.from(new Float32Array([0, 1, 0, 0, 0, 5, 0, 0]).buffer).toString('base64');
-  gltf.meshes[0].primitives[0].mode = 0;
+  gltf.meshes[0].primitives[0].mode = mode;
   gltf.buffers.push({ byteLength: 32, uri: `data:application/octet-stream;base64,${times}` });
   gltf.bufferViews.push({ buffer: 1, byteLength: 8 }, { buffer: 1, byteOffset: 8, byteLength: 24 });
-  gltf.accessors.push({ bufferView: 2, componentType: 5126, count: 2, type: 'SCALAR', min: [0], max: [1] }, { bufferView: 3, componentType: 5126, count: 2, type: 'VEC3' });
+  gltf.accessors.push(
+    { bufferView: 2, componentType: 5126, count: 2, type: 'SCALAR', min: [0], max: [1] },
+    { bufferView: 3, componentType: 5126, count: 2, type: 'VEC3' },
+  );
   gltf.animations = [{ channels: [{ sampler: 0, target: { node: 0, path: 'translation' } }], samplers: [{ input: 2, output: 3 }] }];
-  const file = join(folder, 'points.gltf');
+  const file = join(folder, `moving${mode}.gltf`);
   writeFileSync(file, JSON.stringify(gltf));
-  const character = await new BendyLoader().parseAsync(read(convert(file)));
+  return convert(file);
+}
+
+test('joints that are points themselves move', async () => {
+  const character = await new BendyLoader().parseAsync(read(writeMoving(0)));
   assert.equal(character.parts[0].object.type, 'Points');
   new BendyAnimator(character, { joints: 'needed' }).sample(0, 1).apply();
   character.scene.updateMatrixWorld();
   assert.equal(character.parts[0].object.matrixWorld.elements[12], 5);
   assert.throws(() => new BendyCrowd(character, 1), { code: 'BAD_ARGUMENT', message: /lines or points/ });
+});
+
+test('a crowd moves meshes without bones', async () => {
+  const crowd = new BendyCrowd(await new BendyLoader().parseAsync(read(writeMoving(4))), 2);
+  crowd.play(1, 0).update(0.5);
+  const { crowdMatrices, crowdCount } = uniformsOf(crowd.parts[0].material);
+  assert.equal(crowdCount.value, 1);
+  const xs = [12, 28].map((at) => crowdMatrices.value.image.data[at]);
+  assertNear([xs], [[0, 2.5]]);
+  crowd.dispose();
 });
 
 test('a crowd has the matrices of its members, and advances them', async () => {

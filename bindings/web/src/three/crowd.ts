@@ -170,7 +170,7 @@ export class BendyCrowd extends Group {
     const geometry = withIndex(object.geometry, object.geometry.index!.clone()); // a level of detail changes the character's
     geometry.deleteAttribute('skinIndex');
     geometry.deleteAttribute('skinWeight');
-    const influences = this.#influences.get(mesh) ?? influencesOf(mesh);
+    const influences = this.#influences.get(mesh) ?? (mesh.isRigid ? [] : influencesOf(mesh));
     this.#influences.set(mesh, influences);
     influences.forEach((attribute, k) => geometry.setAttribute(`crowd${k % 2 === 0 ? 'Bones' : 'Weights'}${k >> 1}`, attribute));
     const sets = influences.length / 2;
