@@ -1,6 +1,7 @@
 // Opening beside GLTFLoader, by turns in one page of headless Chromium: node bench/open.mjs [--peers FOLDER] FILE.glb...
 // The same character as glTF (as it is, by gltfpack -cc for meshopt, by gltf-transform draco) and as a bendy file (exact, compact):
-// bytes, bytes after brotli, and milliseconds from the bytes to the first frame on the GPU. FOLDER has the npm packages gltfpack
+// bytes, bytes after brotli, and milliseconds from the bytes to the first frame on the GPU, of clips that AnimationMixer plays or, of
+// bendy files, BendyAnimator. FOLDER has the npm packages gltfpack
 // and @gltf-transform/cli.
 import { execFileSync } from 'node:child_process';
 import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -35,7 +36,7 @@ import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { DRACOLoader } from 'three/addons/loaders/DRACOLoader.js';
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 import { init } from '/dist/index.js';
-import { BendyLoader } from '/dist/three/index.js';
+import { BendyAnimator, BendyLoader } from '/dist/three/index.js';
 
 const renderer = new THREE.WebGLRenderer();
 renderer.setSize(256, 256);
@@ -56,7 +57,11 @@ globalThis.measure = async (name) => {
   const loaded = await (name.endsWith('.bendy') ? bendy : gltf).parseAsync(bytes, '');
   const scene = new THREE.Scene().add(loaded.scene, new THREE.DirectionalLight(), new THREE.AmbientLight());
   loaded.scene.traverse((object) => (object.frustumCulled = false));
-  if (loaded.animations.length !== 0) {
+  if (name.endsWith('.bendy')) {
+    const animator = new BendyAnimator(loaded);
+    if (loaded.model.clips.length !== 0) animator.play(0);
+    animator.update(0.1);
+  } else if (loaded.animations.length !== 0) {
     const mixer = new THREE.AnimationMixer(loaded.scene);
     mixer.clipAction(loaded.animations[0]).play();
     mixer.update(0.1);

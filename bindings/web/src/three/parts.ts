@@ -162,21 +162,29 @@ export async function makeParts(model: Model, materials: Materials, uniqueName: 
   return Promise.all(parts);
 }
 
-/** Binds the skinned parts to bones. Meshes with the same palette share a skeleton. */
+function areEqual(a: ArrayLike<number>, b: ArrayLike<number>): boolean {
+  if (a.length !== b.length) return false;
+  for (let k = 0; k < a.length; ++k) if (a[k] !== b[k]) return false;
+  return true;
+}
+
+/** Binds the skinned parts to bones. Parts of a mesh share a skeleton, and meshes with the same palette, unless they have blended bones. */
 export function bindParts(model: Model, parts: readonly Part[], bones: readonly Bone[]): void {
-  const skeletons = new Map<string, Skeleton>();
+  const made: { mesh: Mesh; isBlended: boolean; skeleton: Skeleton }[] = [];
   for (const { object, mesh: number } of parts) {
     if (!(object instanceof SkinnedMesh)) continue;
     const mesh = model.meshes[number]!;
     const isBlended = object instanceof BlendedSkinnedMesh;
-    const key = isBlended ? `mesh ${number}` : `${mesh.boneJoints.join()} ${mesh.inverseBind.join()}`;
-    let skeleton = skeletons.get(key);
-    if (skeleton === undefined) {
-      const ofMesh = Array.from(mesh.boneJoints, (joint) => bones[joint]!);
-      const inverses = ofMesh.map((_, bone) => new Matrix4().fromArray(mesh.inverseBind, 16 * bone));
-      skeleton = isBlended ? new BlendedSkeleton(ofMesh, inverses, readInfluences(mesh).blends!) : new Skeleton(ofMesh, inverses);
-      skeletons.set(key, skeleton);
+    const isSame = (other: Mesh): boolean => areEqual(other.boneJoints, mesh.boneJoints) && areEqual(other.inverseBind, mesh.inverseBind);
+    const found = made.find((one) => one.mesh === mesh || (!one.isBlended && !isBlended && isSame(one.mesh)));
+    if (found !== undefined) {
+      object.bind(found.skeleton, new Matrix4());
+      continue;
     }
+    const ofMesh = Array.from(mesh.boneJoints, (joint) => bones[joint]!);
+    const inverses = ofMesh.map((_, bone) => new Matrix4().fromArray(mesh.inverseBind, 16 * bone));
+    const skeleton = isBlended ? new BlendedSkeleton(ofMesh, inverses, readInfluences(mesh).blends!) : new Skeleton(ofMesh, inverses);
+    made.push({ mesh, isBlended, skeleton });
     object.bind(skeleton, new Matrix4());
   }
 }
