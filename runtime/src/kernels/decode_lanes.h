@@ -58,7 +58,7 @@ inline void load_pairs(const T* from, Lanes& first, Lanes& second) {
 #endif
 }
 
-/// What stands for 1.
+/// The integer that stands for 1.
 template <class T>
 constexpr auto kLargest = static_cast<float>((1 << (8 * sizeof(T) - 1)) - 1);
 
