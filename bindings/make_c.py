@@ -279,12 +279,11 @@ def main():
     parser.add_argument("header", type=Path)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--check", action="store_true")
-    parser.add_argument("--clang-format", default="clang-format")
     arguments = parser.parse_args()
     stale = []
     for name, text in make(describe.read(arguments.header)).items():
         file = arguments.folder / name
-        command = [arguments.clang_format, f"--assume-filename={file.resolve()}"]
+        command = ["clang-format", f"--assume-filename={file.resolve()}"]
         text = subprocess.run(command, input=text, check=True, capture_output=True, text=True).stdout
         if not file.exists() or file.read_text(encoding="utf-8") != text:
             stale.append(name)

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what the build and the tests need, if it is missing and we may; else names it in one line.
-#   scripts/setup.sh [build|test|all|cross|static|web]   build (default): compiler and libraries; test: also what scripts/test.sh
-#                                                        needs; all: also what scripts/test.sh all needs; cross, static, web:
-#                                                        also what the script of that name needs
+#   scripts/setup.sh [build|test|gate|all|cross|static|web]   build (default): compiler and libraries; test, gate, all: also what
+#                                                             scripts/test.sh needs, alone or with that word; cross, static, web:
+#                                                             also what the script of that name needs
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -26,8 +26,9 @@ install_missing() {
     echo "Installing from Debian: ${missing[*]}" >&2
     local log
     log=$(mktemp)
-    if ! { "${as_root[@]}" apt-get update -qq &&
-        "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+    local patient=(-qq -o DPkg::Lock::Timeout=600) # waits for another apt, such as the one that a new machine starts by itself
+    if ! { "${as_root[@]}" apt-get update "${patient[@]}" &&
+        "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y "${patient[@]}" --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
         cat "$log" >&2 # apt also says things that sound alarming and are not: nobody sees them where it works
         exit 1
     fi
@@ -69,20 +70,20 @@ if wants cross; then
     need /usr/lib/wine/wine64 wine64
     need x86_64-w64-mingw32-g++-posix g++-mingw-w64-x86-64-posix
 fi
-if wants cross static web test all; then
+if wants cross static web gate all; then
     need dpkg-source dpkg-dev
 fi
 if wants static all; then
     need unshare util-linux
     need file file
 fi
-if wants web test all; then
+if wants web gate all; then
     need emcc emscripten
     need wasm-opt binaryen
     need node nodejs
     need npm npm
 fi
-if wants test all; then
+if wants test gate all; then
     python3 -c 'import jsonschema' 2>/dev/null || missing+=(python3-jsonschema)
     for module in numpy pytest; do # of the system's Python, for which the Python package is built
         /usr/bin/python3 -c "import $module" 2>/dev/null || missing+=("python3-$module")
@@ -90,13 +91,15 @@ if wants test all; then
     need /usr/include/pybind11/pybind11.h pybind11-dev
     compgen -G '/usr/include/python3*/Python.h' >/dev/null || missing+=(python3-dev)
     need /usr/include/gtest/gtest.h libgtest-dev
+    need ccache ccache
+    need git git
+fi
+if wants gate all; then
     need /usr/include/benchmark/benchmark.h libbenchmark-dev
     need clang++ clang
     compgen -G '/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.asan-*.a' >/dev/null || missing+=(libclang-rt-dev)
     need clang-format clang-format
     need clang-tidy clang-tidy
-    need ccache ccache
-    need git git
 fi
 if wants web all; then
     need chromium chromium
@@ -136,7 +139,7 @@ if wants all; then
 fi
 install_missing
 # Downloads for the WebAssembly build, so that the checks download nothing.
-if wants test; then
+if wants gate; then
     for system in web web-plain; do scripts/cross_dependencies.sh "$system"; done
     [ -e bindings/web/node_modules/playcanvas ] || (cd bindings/web && npm ci --silent --no-audit --no-fund)
 fi

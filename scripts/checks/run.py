@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Runs the project's checks, which scripts/checks/steps.py lists.
 
-    scripts/test.sh                       the gate: what a change must pass, in 20 to 25 minutes
+    scripts/test.sh                       builds the program and runs its tests
+    scripts/test.sh gate                  the gate, what a change must pass: these tests and more; goes on where it stopped
     scripts/test.sh all                   the outer ring: everything else; goes on where it stopped
     scripts/test.sh all --since REVISION  the steps of the outer ring that the files changed since then can break
     scripts/test.sh STEP...               these steps, and the builds that they need; options after -- are ctest's: scripts/test.sh tests -- -R Skin
@@ -29,6 +30,8 @@ ROOT = Path(__file__).resolve().parents[2]
 RECORD = ROOT / "build/checks"
 # One place in so many is visited by the tests of damage in the gate, another one for each commit: tests/mutation/places.h.
 PLACES = 7
+# What the words that stand for several steps mean.
+RINGS = {"test": ("test",), "gate": ("test", "gate"), "all": ("all",)}
 
 
 def clock(seconds):
@@ -68,8 +71,8 @@ class Passed:
 
 def environment_of(step):
     environment = dict(os.environ)
-    if step.ring == "gate":
-        # The gate downloads nothing: scripts/setup.sh test has done so.
+    if step.ring in RINGS["gate"]:
+        # The gate downloads nothing: scripts/setup.sh has done so.
         environment |= {"npm_config_offline": "true", "http_proxy": "http://127.0.0.1:9", "https_proxy": "http://127.0.0.1:9"}
         environment.setdefault("BENDY_PLACES", f"{int(git('rev-parse', 'HEAD')[:8], 16) % PLACES}/{PLACES}")
     return environment | step.environment
@@ -134,11 +137,10 @@ def with_needed(steps):
 
 def choose(options):
     """The requested steps, in their order."""
-    if not options.steps:
-        return [step for step in STEPS if step.ring == "gate"]
-    if options.steps != ["all"]:
+    ring = RINGS.get(options.steps[0] if options.steps else "test")
+    if ring is None:
         return [named(name) for name in options.steps]
-    steps = [step for step in STEPS if step.ring == "all"]
+    steps = [step for step in STEPS if step.ring in ring]
     if options.since is None:
         return steps
     chosen, why = affected.steps_since(ROOT, options.since, steps)
@@ -152,19 +154,22 @@ def parse(arguments):
         at = arguments.index("--")
         arguments, ctest_options = arguments[:at], arguments[at + 1:]
     parser = argparse.ArgumentParser(prog="scripts/test.sh", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("steps", nargs="*", metavar="all|STEP")
+    parser.add_argument("steps", nargs="*", metavar="gate|all|STEP")
     parser.add_argument("--since", metavar="REVISION", help="with all: only the steps that changes since then can break")
-    parser.add_argument("--again", action="store_true", help="with all: also the steps that have passed on these sources")
+    parser.add_argument("--again", action="store_true", help="with gate and all: also the steps that have passed on these sources")
     parser.add_argument("--keep-going", action="store_true", help="run the other steps after one has failed, too")
     parser.add_argument("--list", action="store_true", help="list the steps")
     options = parser.parse_args(arguments)
-    unknown = [name for name in options.steps if name != "all" and named(name) is None]
+    rings = [name for name in options.steps if name in ("gate", "all")]
+    unknown = [name for name in options.steps if name not in rings and named(name) is None]
     if unknown:
         parser.error(f"unknown step {unknown[0]}: scripts/test.sh --list shows them")
-    if "all" in options.steps and len(options.steps) > 1:
-        parser.error("all goes with no other step")
-    if (options.since or options.again) and options.steps != ["all"]:
-        parser.error("--since and --again go with all")
+    if rings and len(options.steps) > 1:
+        parser.error(f"{rings[0]} goes with no other step")
+    if options.again and not rings:
+        parser.error("--again goes with gate and all")
+    if options.since and rings != ["all"]:
+        parser.error("--since goes with all")
     if options.since and subprocess.run(["git", "rev-parse", "--verify", "--quiet", f"{options.since}^{{commit}}"], cwd=ROOT,
                                         stdout=subprocess.DEVNULL, check=False).returncode != 0:
         parser.error(f"--since: unknown revision {options.since}")
@@ -182,7 +187,7 @@ def main():
     for packages in dict.fromkeys(step.setup for step in steps):
         subprocess.run(["scripts/setup.sh", packages], cwd=ROOT, check=True)
     passed = Passed(tree_now())
-    if options.steps == ["all"] and not options.again:
+    if options.steps in (["gate"], ["all"]) and not options.again:
         for step in steps:
             if passed.has(step):
                 print(f"{step.name}: has passed on these sources")

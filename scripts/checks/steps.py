@@ -1,5 +1,5 @@
-"""The steps of the checks, in the order in which they run: the gate first, and in it those that fail often before those that take
-long."""
+"""The steps of the checks, in the order in which they run: the tests that anybody runs first, then the rest of the gate, and in it
+those that fail often before those that take long."""
 
 import dataclasses
 import os
@@ -21,7 +21,7 @@ class Tests:
 class Step:
     """One check."""
     name: str
-    ring: str  # gate, all, or asked: only when it is named
+    ring: str  # test, gate, all, or asked: only when it is named
     what: str
     commands: tuple = ()
     tests: tuple = ()
@@ -29,7 +29,11 @@ class Step:
     # For --since, beside the programs and scripts of the tests: CMake targets, and files of the project, that the commands use.
     uses: tuple = ()
     needs: tuple = ()  # steps that run before, when this one is named
-    setup: str = "all"  # the packages: scripts/setup.sh
+
+    @property
+    def setup(self):
+        """What installs the packages: an argument of scripts/setup.sh."""
+        return "all" if self.ring == "asked" else self.ring
 
 
 def ctest_command(tests, results, more):
@@ -55,22 +59,24 @@ def release(needed):
 UNITS = ("format", "runtime", "capi", "threads", "mutation", "conformance", "compat", "edit", "motion", "converter", "text_form", "memory")
 
 STEPS = (
-    # The gate.
-    Step("format", "gate", "sources are formatted", (["scripts/lint.sh"],), setup="test"),
-    Step("build", "gate", "optimised, warnings are errors", (release("gate"), build("release", "gate")), setup="test"),
-    Step("tests", "gate", "units, command line, specification, conformance, determinism, C, Python",
+    # What a newcomer runs: a compiler, libraries and Python are enough.
+    Step("build", "test", "optimised, warnings are errors", (release("test"), build("release", "gate"))),
+    Step("tests", "test", "units, command line, specification, conformance, determinism, C, Python",
          tests=(Tests("release", (*UNITS, "viewer", "architecture", "spec", "release", "determinism", "cli", "reference", "python")),),
-         needs=("build",), setup="test"),
-    Step("corpus", "gate", "real characters, known poses", tests=(Tests("release", ("corpus",)),), needs=("build",), setup="test"),
+         needs=("build",)),
+    Step("corpus", "test", "real characters, known poses", tests=(Tests("release", ("corpus",)),), needs=("build",)),
+
+    # The rest of the gate.
+    Step("format", "gate", "sources are formatted, and what is made of bendy.h is up to date",
+         (["scripts/lint.sh"], ["python3", "bindings/make_c.py", "bindings/c/include/bendy.h", "bindings/c/src", "--check"])),
     Step("tidy", "gate", "clang-tidy of what has changed, and of what includes it", (["scripts/lint.sh", "build/release", "--changed"],),
-         needs=("build",), setup="test"),
+         needs=("build",)),
     Step("asan", "gate", "AddressSanitizer and UndefinedBehaviorSanitizer, by clang",
-         (configure("asan-ubsan", "-DBENDY_TESTS_NEEDED=gate"), build("asan-ubsan", "gate", "fuzz_targets")),
-         (Tests("asan-ubsan", (*UNITS, "viewer", "cli"), without=("exhaustive",)),), setup="test"),
-    Step("threads", "gate", "ThreadSanitizer: what uses threads", (configure("tsan"), build("tsan")), (Tests("tsan", ("threads",)),),
-         setup="test"),
-    Step("web", "gate", "the runtime as WebAssembly, under node", (["scripts/web.sh", "runtime"],), needs=("build",), setup="test"),
-    Step("fuzz", "gate", "every fuzz target for five seconds, with one seed", (["scripts/fuzz.sh"],), needs=("build", "asan"), setup="test"),
+         (configure("asan-ubsan", "-DBENDY_TESTS_NEEDED=test"), build("asan-ubsan", "gate", "fuzz_targets")),
+         (Tests("asan-ubsan", (*UNITS, "viewer", "cli"), without=("exhaustive",)),)),
+    Step("threads", "gate", "ThreadSanitizer: what uses threads", (configure("tsan"), build("tsan")), (Tests("tsan", ("threads",)),)),
+    Step("web", "gate", "the runtime as WebAssembly, under node", (["scripts/web.sh", "runtime"],), needs=("build",)),
+    Step("fuzz", "gate", "every fuzz target for five seconds, with one seed", (["scripts/fuzz.sh"],), needs=("build", "asan")),
 
     # The outer ring.
     Step("everything", "all", "all programs, warnings are errors; examples, the two files of the amalgamated runtime",

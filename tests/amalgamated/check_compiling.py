@@ -17,7 +17,7 @@ HERE = Path(__file__).parent
 def main():
     folder, compiler, library, *files = sys.argv[1:]
     if shutil.which(compiler) is None:
-        sys.exit(f"{compiler} is not there: scripts/setup.sh test")
+        sys.exit(f"{compiler} is not there: scripts/setup.sh gate")
     for name in ("bendy_runtime.h", "bendy_runtime.cpp"):
         if re.search(r'#include [<"]bendy/', Path(folder, name).read_text(encoding="utf-8")):
             sys.exit(f"{name} needs a file of the project")

@@ -52,9 +52,24 @@ class Steps(unittest.TestCase):
         names = [step.name for step in steps.STEPS]
         self.assertEqual(len(names), len(set(names)))
         for step in steps.STEPS:
-            self.assertIn(step.ring, ("gate", "all", "asked"))
+            self.assertIn(step.ring, ("test", "gate", "all", "asked"))
             for name in step.needs:
                 self.assertIsNotNone(steps.named(name), step.name)
+
+    def test_words_that_stand_for_several_steps(self):
+        def chosen(*words):
+            options, _ = run.parse(words)
+            return [step.name for step in run.choose(options)]
+        self.assertEqual(chosen(), ["build", "tests", "corpus"])
+        self.assertEqual(chosen("gate")[:3], chosen())
+        self.assertIn("asan", chosen("gate"))
+        self.assertFalse(set(chosen("gate")) & set(chosen("all")))
+        self.assertEqual(chosen("tests", "asan"), ["tests", "asan"])
+
+    def test_setup_knows_what_a_ring_needs(self):
+        text = (ROOT / "scripts/setup.sh").read_text(encoding="utf-8")
+        for step in steps.STEPS:
+            self.assertRegex(text, rf"wants [a-z ]*\b{step.setup}\b", step.name)
 
     def test_a_step_comes_behind_what_it_needs(self):
         chosen = [step.name for step in run.with_needed([steps.named("fuzz"), steps.named("tests")])]

@@ -284,7 +284,7 @@ class Structure(Case):
         self.assertFalse((self.folder / "no.html").exists())
 
 
-@unittest.skipUnless(CHROMIUM, "Chromium is not installed: the pages are not shown (scripts/setup.sh test installs it)")
+@unittest.skipUnless(CHROMIUM, "Chromium is not installed: the pages are not shown (scripts/setup.sh all installs it)")
 class InChromium(Case):
     def shown(self, name, page, script=""):
         """The page's element tree after its script has run, and what the browser's console said. `script` runs after

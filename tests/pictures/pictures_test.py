@@ -134,7 +134,7 @@ def main():
     shutil.rmtree(pictures, ignore_errors=True)
     pictures.mkdir(parents=True)
     if browser.CHROMIUM is None:
-        print("Chromium is not installed (scripts/setup.sh test installs it)")
+        print("Chromium is not installed (scripts/setup.sh all installs it)")
         return SKIPPED
     if not install(work, arguments.npm):
         print("three.js cannot be had")
