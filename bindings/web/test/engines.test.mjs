@@ -1,5 +1,7 @@
 // Characters in Babylon.js and PlayCanvas, without a GPU: what these engines compute is compared with the runtime's vertices.
 import assert from 'node:assert/strict';
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { test } from 'node:test';
 import { Logger } from '@babylonjs/core/Misc/logger.js';
 import { FreeCamera } from '@babylonjs/core/Cameras/freeCamera.js';
@@ -9,7 +11,7 @@ import { Scene } from '@babylonjs/core/scene.js';
 import * as pc from 'playcanvas';
 import * as babylon from '../dist/engines/babylon.js';
 import * as playcanvas from '../dist/engines/playcanvas.js';
-import { bendy, corpusFile, convert, difference, example, extent, plain, read, simd } from './helpers.mjs';
+import { bendy, corpusFile, convert, difference, example, extent, folder, plain, read, simd } from './helpers.mjs';
 
 Logger.LogLevels = Logger.ErrorLogLevel;
 const mannequin = read(example('mannequin'));
@@ -33,7 +35,7 @@ function playCanvasApp() {
   const device = new pc.NullGraphicsDevice({ width: 8, height: 8, addEventListener() {}, removeEventListener() {} });
   const app = new pc.AppBase({ id: 'none', addEventListener() {}, removeEventListener() {} });
   const options = new pc.AppOptions();
-  Object.assign(options, { graphicsDevice: device, componentSystems: [pc.RenderComponentSystem] });
+  Object.assign(options, { graphicsDevice: device, componentSystems: [pc.RenderComponentSystem, pc.CameraComponentSystem] });
   app.init(options);
   return app;
 }
@@ -111,6 +113,91 @@ for (const [name, bytes] of files) {
     app.destroy();
   });
 }
+
+/** Two triangles of one mesh, at z = 0 and z = 2, each with a material of its own. */
+function twoMaterials(modes, { doubleSided = false, how = 'rigid', extraLine = false } = {}) {
+  const buffers = [];
+  const bufferViews = [];
+  const accessors = [];
+  const put = (array, type) => {
+    const width = { SCALAR: 1, VEC3: 3, VEC4: 4, MAT4: 16 }[type];
+    const componentType = array instanceof Uint8Array ? 5121 : 5126;
+    bufferViews.push({ buffer: buffers.length, byteLength: array.byteLength });
+    buffers.push({ byteLength: array.byteLength, uri: `data:;base64,${Buffer.from(array.buffer).toString('base64')}` });
+    const bounds = type === 'VEC3' ? { min: [0, 0, 0], max: [1, 1, 2] } : {};
+    return accessors.push({ bufferView: bufferViews.length - 1, componentType, count: array.length / width, type, ...bounds }) - 1;
+  };
+  const attributes = { POSITION: put(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 2, 1, 0, 2, 0, 1, 2]), 'VEC3') };
+  if (how === 'skinned') {
+    Object.assign(attributes, { JOINTS_0: put(new Uint8Array(24), 'VEC4'), WEIGHTS_0: put(Float32Array.from({ length: 24 }, (_, k) => (k % 4 === 0 ? 1 : 0)), 'VEC4') });
+  }
+  const targets = how === 'morphed' ? { targets: [{ POSITION: put(new Float32Array(18).fill(0.1), 'VEC3') }] } : {};
+  const primitives = [[0, 1, 2], [3, 4, 5]].map((triangle, material) => ({ attributes, material, indices: put(Uint8Array.from(triangle), 'SCALAR'), ...targets }));
+  if (extraLine) primitives.push({ attributes, material: 0, mode: 1, indices: put(Uint8Array.from([0, 1]), 'SCALAR'), ...targets });
+  const gltf = {
+    asset: { version: '2.0' },
+    scenes: [{ nodes: [0] }],
+    nodes: [{ mesh: 0, ...(how === 'skinned' ? { skin: 0 } : {}) }],
+    ...(how === 'skinned' ? { skins: [{ joints: [0] }] } : {}),
+    meshes: [{ primitives }],
+    materials: modes.map((alphaMode) => ({ alphaMode, doubleSided, pbrMetallicRoughness: { baseColorFactor: [1, 0, 0, 0.5] } })),
+    accessors, bufferViews, buffers,
+  };
+  writeFileSync(join(folder, 'two.gltf'), JSON.stringify(gltf));
+  return read(convert(join(folder, 'two.gltf'), '--quiet'));
+}
+
+const drawnCases = [['BLEND', 'OPAQUE'], ['OPAQUE', 'BLEND'], ['BLEND', 'BLEND'], ['MASK', 'BLEND'], ['BLEND', 'MASK'], ['OPAQUE', 'OPAQUE']].flatMap((modes) =>
+  [{}, { how: 'skinned' }, { how: 'morphed' }, { doubleSided: true }, { extraLine: true }].map((more) => [modes, more]),
+);
+
+test('Babylon.js: meshes of two materials are drawn, whichever blends', async () => {
+  for (const [modes, more] of drawnCases) {
+    const bytes = twoMaterials(modes, more);
+    for (const [isRightHanded, skin] of [[true, 'gpu'], [false, 'wasm']]) {
+      const what = `${modes} ${JSON.stringify(more)} ${skin}`;
+      const scene = babylonScene(isRightHanded);
+      const character = await babylon.loadBendy(bytes, scene, { skin });
+      await scene.whenReadyAsync();
+      for (let frame = 0; frame < 3; ++frame) {
+        character.update(0.1);
+        scene.render();
+        assert.equal(scene.getActiveIndices(), 6, what);
+      }
+      const [{ object }] = character.parts;
+      const depths = object.subMeshes.map((one) => Math.abs(one.getBoundingInfo().boundingSphere.centerWorld.z));
+      assert.deepEqual(depths.map(Math.round), [0, 2], what); // by which those that blend are sorted
+      character.dispose();
+      scene.render();
+    }
+  }
+});
+
+test('PlayCanvas: meshes of two materials are drawn, whichever blends', async () => {
+  for (const [modes, more] of drawnCases) {
+    const bytes = twoMaterials(modes, more);
+    for (const skin of ['gpu', 'wasm']) {
+      const what = `${modes} ${JSON.stringify(more)} ${skin}`;
+      const app = playCanvasApp();
+      const camera = new pc.Entity();
+      camera.addComponent('camera');
+      camera.setPosition(0, 0, 9);
+      app.root.addChild(camera);
+      const character = await playcanvas.loadBendy(bytes, app, { skin });
+      app.root.addChild(character.entity);
+      const [{ instances }] = character.parts;
+      for (let frame = 0; frame < 3; ++frame) {
+        character.update(0.1);
+        app.render();
+        assert.deepEqual(instances.map(({ aabb }) => Math.round(aabb.center.z)), [0, 2], what);
+        assert.deepEqual(instances.map(({ transparent }) => transparent), modes.map((mode) => mode === 'BLEND'), what);
+        assert.equal(app.stats.frame.triangles ?? 2, 2, what);
+      }
+      character.dispose();
+      app.destroy();
+    }
+  }
+});
 
 test('Babylon.js: a left-handed scene shows the mirror image of model space, as of a glTF file', async () => {
   const scene = babylonScene(false);

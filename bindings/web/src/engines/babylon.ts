@@ -128,7 +128,7 @@ function makePart(mesh: BendyMesh, model: Model, scene: Scene, root: TransformNo
   used.subMaterials = submeshes.map(({ material }) => materials[material ?? materials.length - 1]!);
   object.material = used;
   object.subMeshes = [];
-  submeshes.forEach(({ first, count }, k) => new SubMesh(k, 0, mesh.vertexCount, first, count, object, undefined, false));
+  submeshes.forEach(({ first, count }, k) => new SubMesh(k, 0, mesh.vertexCount, first, count, object)); // has bounds: what blends is sorted by them
   return { mesh, object, skeleton: isSkinned ? bind(object, mesh, scene) : null };
 }
 

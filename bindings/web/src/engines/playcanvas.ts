@@ -65,6 +65,10 @@ export class PlayCanvasCharacter extends Player {
       .filter((mesh) => mesh.positions.length > 0)
       .map((mesh) => this.#makePart(mesh, canSkin(mesh, mostInfluences, options)));
     this.entity.addComponent('render', { meshInstances: this.parts.flatMap(({ instances }) => instances) });
+    for (const { mesh, instances } of this.parts) {
+      // What blends is sorted by its bounds. The component has set its own, of nothing.
+      for (const instance of instances) instance.setCustomAabb(boundsAtRest(mesh, instance.mesh!.primitive[0]!));
+    }
     this.apply();
   }
 
@@ -149,6 +153,15 @@ export class PlayCanvasCharacter extends Player {
     });
     return { mesh, instances, skin };
   }
+}
+
+/** The box of some of a mesh's triangles. */
+function boundsAtRest({ positions, indices }: Mesh, { base, count }: { base: number; count: number }): pc.BoundingBox {
+  const points = new Float32Array(3 * count);
+  indices.subarray(base, base + count).forEach((vertex, k) => points.set(positions.subarray(3 * vertex, 3 * vertex + 3), 3 * k));
+  const box = new pc.BoundingBox();
+  box.compute(points);
+  return box;
 }
 
 function makeMaterial(source: Material, model: Model, device: pc.GraphicsDevice): pc.StandardMaterial {
