@@ -222,6 +222,7 @@ void check_values(const ChunkTree& tree, const Document& document, Faults& fault
         check_finite(std::array{bound.max_error, bound.measured_error, bound.height},
                      offset_of(tree, 0, FourCC("BNDS")), faults);
     }
+    for (const TextureView& texture : document.textures) check_texture_values(tree, texture, faults);
     for (const MaterialView& material : document.materials) check_material_values(tree, material, faults);
     for (const ObjectView& object : document.objects) {
         check_skeleton_values(tree, object.skeleton, faults);

@@ -107,6 +107,13 @@ std::string mime_type(MediaType media) {
     return std::string("image/").append(kValueNames<MediaType>[static_cast<std::size_t>(media)]);
 }
 
+void check_texture_values(const ChunkTree& tree, const TextureView& texture, Faults& faults) {
+    for (const ImageView& image : texture.images) {
+        const std::size_t at = find_control(image.uri);
+        if (at != std::string_view::npos) faults.add({ErrorCode::kLinkControl, tree[image.chunk].offset, at});
+    }
+}
+
 void check_material_values(const ChunkTree& tree, const MaterialView& material, Faults& faults) {
     const std::uint64_t offset = offset_of(tree, material.chunk, FourCC("SURF"));
     const SurfaceRecord& surface = material.surface;

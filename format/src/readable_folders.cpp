@@ -107,8 +107,9 @@ bool is_data_uri(std::string_view uri) {
 }
 
 Result<fs::path, LinkProblem> linked_file(std::string_view uri, const fs::path& folder) {
-    const std::string text = is_data_uri(uri) ? std::string() : with_slashes(uri);
-    if (text.empty()) return uri.empty() ? LinkProblem::empty : LinkProblem::scheme;
+    if (is_data_uri(uri)) return LinkProblem::scheme;
+    if (find_control(uri) != std::string_view::npos) return LinkProblem::control;
+    const std::string text = with_slashes(uri);
     const auto name = name_in(text);
     if (!name) return name.error();
     return path_of(percent_decoded(*name).value_or(std::string(*name)), folder);

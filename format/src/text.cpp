@@ -53,6 +53,16 @@ bool is_utf8(std::string_view text) {
     return true;
 }
 
+std::size_t find_control(std::string_view text) {
+    const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (byte(at) < 0x20 || byte(at) == 0x7f) return at;
+        // U+0080 to U+009F take two bytes.
+        if (byte(at) == 0xc2 && text.size() - at > 1 && byte(at + 1) < 0xa0) return at;
+    }
+    return std::string_view::npos;
+}
+
 std::string_view read_text(const ChunkTree& tree, std::uint32_t container, FourCC id, Faults& faults) {
     const std::uint32_t number = tree.find(container, id);
     if (number == kNone) return {};

@@ -177,6 +177,20 @@ TEST(Texture, RefusesALinkThatIsNotTextOrIsEncoded) {
     EXPECT_EQ(faults_in(root), Lines{"UNSUPPORTED_CODEC HEAD/TEXT/LINK"});
 }
 
+TEST(Texture, ALinkWithAControlCharacterIsReadAndReported) {
+    Node root = sample();
+    constexpr std::string_view kUri = ".\t./secret.png";
+    const Bytes uri = as_byte_span(kUri);
+    at(root, "HEAD/TEXT/LINK").payload.assign(uri.begin(), uri.end());
+    const Loaded loaded(root);
+    EXPECT_EQ(loaded.lines(), Lines{});  // of what reading needs
+    EXPECT_EQ(loaded.document.textures.at(0).images.at(0).uri, kUri);
+    const Faults faults = validate(to_file(root));
+    ASSERT_EQ(faults.list().size(), 1u);
+    EXPECT_EQ(faults.list()[0].code, ErrorCode::kLinkControl);
+    EXPECT_EQ(describe(faults.list()[0]), "byte 1 of the URI belongs to a control character; a URI has none");
+}
+
 TEST(Texture, RefusesTheImageOfATextureThatIsNotThere) {
     for (const std::uint32_t texture : {3u, 0x8000'0000u, kNone - 1, kNone}) {
         EXPECT_EQ(faults_with("HEAD/TEXT[2]/SAME", offsetof(SameRecord, texture), texture),

@@ -95,6 +95,12 @@ TEST_F(Folders, HoldNothingElse) {
     EXPECT_EQ(problem(folders, "data:,abc"), LinkProblem::scheme);
     EXPECT_EQ(problem(folders, "a%00.bin"), LinkProblem::no_name);
     EXPECT_EQ(problem(folders, "DATA:,a\\b"), LinkProblem::scheme);
+    EXPECT_EQ(problem(folders, " http://example.invalid/a.bin"), LinkProblem::scheme);
+    EXPECT_EQ(problem(folders, std::string_view("a\0.bin", 6)), LinkProblem::control);
+    for (const char* uri :
+         {".\t./secret", "sub/b.bin\n", "\rsub/b.bin", "sub/\x7f", "sub/\xc2\x85", "\thttp://example.invalid"})
+        EXPECT_EQ(problem(folders, uri), LinkProblem::control) << uri;
+    EXPECT_TRUE(folders.find(".%09./secret"));  // a folder has this name
     EXPECT_EQ(problem(folders, "HTTP:\\\\example.invalid\\a.bin"), LinkProblem::scheme);
 #ifdef _WIN32
     EXPECT_EQ(problem(folders, "..%5csecret"), LinkProblem::outside);

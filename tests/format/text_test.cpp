@@ -73,6 +73,19 @@ TEST(Utf8, AcceptsEmptyTextAndZeros) {
     EXPECT_TRUE(is_utf8("a\0b"sv));
 }
 
+TEST(FindControl, FindsTheFirstOne) {
+    for (unsigned code = 0; code < 0x20; ++code)
+        EXPECT_EQ(find_control(std::string("ab") + static_cast<char>(code) + '\n'), 2u) << code;
+    EXPECT_EQ(find_control("\x7f"), 0u);
+    EXPECT_EQ(find_control("\xc3\xa9\xc2\x80"), 2u);
+    EXPECT_EQ(find_control("a\xc2\x9f"), 1u);
+}
+
+TEST(FindControl, FindsNoneAmongOtherCharacters) {
+    for (const char* text : {"", " a ", "~", "\xc2\xa0", "\xc3\x80", "\xe2\x80\xa8", "\xf0\x9f\x92\x80", "%09"})
+        EXPECT_EQ(find_control(text), std::string_view::npos) << text;
+}
+
 TEST(ReadText, GivesTheTextInPlace) {
     const Loaded sample(sample_file());
     Faults faults;

@@ -174,6 +174,8 @@ const std::vector<Provocation> kProvocations{
     record<VersionRecord>(ErrorCode::kCountMismatch, "HEAD/VERS", [](auto& version) { version.joints = 5; }),
     edited(ErrorCode::kNotUtf8, "HEAD/OBJE/SKIN/NAME",
            [](Node& root) { set(at(root, "HEAD/OBJE/SKIN/NAME"), 0, std::uint8_t{0xff}); }),
+    edited(ErrorCode::kLinkControl, "HEAD/TEXT/LINK",
+           [](Node& root) { set(at(root, "HEAD/TEXT/LINK"), 0, std::uint8_t{'\n'}); }),
     record<SamplerRecord>(ErrorCode::kEnumRange, "HEAD/TEXT/SAMP", [](auto& sampler) { sampler.wrap_s = kWraps; }),
     number(ErrorCode::kNotFinite, "HEAD/OBJE/VECT/POSI", kNumbers, kNaN),
     record<MeshRecord>(ErrorCode::kJointRange, "HEAD/OBJE/VECT[1]/VINF", [](auto& mesh) { mesh.joint = 4; }),

@@ -49,6 +49,10 @@ export function check_textures(file) {
             if (what.media > 5) file.add('ENUM_RANGE', image);
             if (!all_zero(what.reserved)) file.add('RESERVED_FIELD', image);
         }
+        for (const link of file.children(texture, 'LINK')) {
+            const uri = file.payload(link);
+            if (uri && is_utf8(uri) && /\p{Control}/u.test(new TextDecoder().decode(uri))) file.add('LINK_CONTROL', link);
+        }
         for (const same of file.children(texture, 'SAME')) {
             const what = file.record(same, 'SameRecord', 8);
             if (!what) continue;

@@ -10,7 +10,7 @@ import { check_tree } from './tree_rules.mjs';
 import { path_of, walk } from './walk.mjs';
 
 /** Codes of what is held against values alone, the last step of the checks. */
-const kValueCodes = new Set(['COUNT_MISMATCH', 'NOT_FINITE', 'WEIGHT_RANGE', 'WEIGHT_SUM', 'FRACTION_RANGE', 'BELOW_ZERO',
+const kValueCodes = new Set(['COUNT_MISMATCH', 'LINK_CONTROL', 'NOT_FINITE', 'WEIGHT_RANGE', 'WEIGHT_SUM', 'FRACTION_RANGE', 'BELOW_ZERO',
     'LIMIT_ORDER', 'LIMIT_RANGE', 'REST_OUTSIDE', 'KEY_ORDER', 'KEY_OVERLAP', 'TRACK_REPEATED', 'ROTATION_NOT_UNIT',
     'CLIP_LENGTH', 'MARKER_ORDER', 'MARKER_OUTSIDE', 'CURVE_ORDER',
     'CURVE_REPEATED', 'COLLAPSE_TARGET', 'COLLAPSE_LEVEL']);

@@ -300,6 +300,25 @@ class Render(WithFolder):
             self.assertIn(warning, done.stderr)
             self.assertEqual(done.stderr == "", warning == "", done.stderr)
 
+    def test_a_link_with_a_control_character_is_not_followed(self):
+        gltf = json.loads(surfaces())
+        gltf["images"] = [{"uri": "a%20b.png"}]
+        inner = self.folder / "inner"
+        inner.mkdir(exist_ok=True)
+        (inner / "tab.gltf").write_text(json.dumps(gltf), encoding="utf-8")
+        for name in ("a\tb.png", "ab.png"):
+            (inner / name).write_bytes(write_png(1, 1, 3, b"\x20\xff\x20"))
+        bendy("convert", inner / "tab.gltf", "--images", "link", "-q")
+        bendy("dump", inner / "tab.bendy", "-o", inner / "tab.json")
+        text = (inner / "tab.json").read_text(encoding="utf-8")
+        self.assertEqual(text.count("a%20b.png"), 1)
+        (inner / "tab.json").write_text(text.replace("a%20b.png", "a\\tb.png"), encoding="utf-8")
+        bendy("assemble", inner / "tab.json", "-o", inner / "tab.bendy", "--allow-invalid")
+        done = bendy("validate", inner / "tab.bendy")
+        self.assertRegex(done.stdout, r": LINK_CONTROL: .*\(HEAD/TEXT/LINK,")
+        done = bendy("render", inner / "tab.bendy", "-o", self.folder / "o.png", "--size", "20x20")
+        self.assertIn("its link, which holds a control character, is not followed", done.stderr)
+
 
 class Reach(WithFolder):
     """`render` takes what `pose` takes to change a pose after the clip."""

@@ -140,6 +140,8 @@ bool TextureLoader::upload(std::uint32_t number, const ImageView& image, bool sr
     if (bytes.empty()) {
         const auto path = folders_.find(image.uri);
         problem = "its image is not in this file";
+        if (!path && path.error() == LinkProblem::control)
+            problem += ", and its link, which holds a control character, is not followed";
         if (!path && path.error() == LinkProblem::outside)
             problem += ", and is not read from outside its folder: --root FOLDER allows a folder that it is in";
         if (!path) return false;

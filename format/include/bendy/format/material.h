@@ -50,5 +50,7 @@ void check_texture_references(const ChunkTree& tree, std::vector<TextureView>& t
 std::string mime_type(MediaType media);
 /// Adds faults of content: numbers that are not finite.
 void check_material_values(const ChunkTree& tree, const MaterialView& material, Faults& faults);
+/// Checks the URIs of a texture's images.
+void check_texture_values(const ChunkTree& tree, const TextureView& texture, Faults& faults);
 
 }  // namespace bendy

@@ -13,8 +13,9 @@ namespace BENDY_PUBLIC bendy {
 /// Why a URI in a file does not lead to a readable file.
 enum class LinkProblem : std::uint8_t {
     empty,
+    control,  ///< holds a control character, which other programs leave out before they look where the URI leads
     scheme,   ///< data, or another scheme than `file`
-    no_name,  ///< holds a NUL, or the system refuses it as too long; on Windows also: is not UTF-8
+    no_name,  ///< holds an encoded NUL, or the system refuses it as too long; on Windows also: is not UTF-8
     outside,  ///< outside the folders
 };
 
@@ -30,7 +31,6 @@ Result<std::filesystem::path, LinkProblem> linked_file(std::string_view uri, con
 /// more, the root, that the user names. A file's actual location counts, not that of a symbolic link to it. The folder
 /// is the one in the file's name as given, and the one of the file that the name leads to: build tools make folders of
 /// links into other folders, and these must work. In the root, links are followed wherever they lead.
-/// into another one, as build tools make, is as good as that one. In the root, links are followed wherever they lead.
 class ReadableFolders {
 public:
     /// For a file without a folder, such as standard input: only the root counts, and relative names start there. If
