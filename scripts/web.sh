@@ -36,7 +36,7 @@ node embed.mjs ../../build/cross/web-plain/build/web/bendy.wasm src/generated/pl
 rm -rf dist
 if [ "$what" = runtime ]; then
     npx --no-install tsc -p tsconfig.runtime.json
-    exec node --test --test-concurrency=2 test/{broken,load,memory,model,play,pose,three,three_draw,three_rig}.test.mjs
+    exec node --test --test-concurrency=2 test/{broken,links,load,memory,model,play,pose,three,three_draw,three_rig}.test.mjs
 fi
 tools=../../build/cross/web-tools/build/web/tools
 { echo '// @ts-nocheck'; cat "$tools/tools.js"; } >src/generated/tools_glue.ts

@@ -126,6 +126,16 @@ TEST(CTexture, HasSamplerNameAndImages) {
     EXPECT_STREQ(texture.more, "");
 }
 
+TEST(CTexture, AUriWithAZeroIsNotCutShort) {
+    Node root = sample();
+    child(child(root, "TEXT"), "LINK").payload[4] = std::byte{0};
+    const ModelHandle model = open_copy(to_file(root));
+    bendy_error error = BENDY_ERROR_INIT;
+    auto image = sized<bendy_image>();
+    ASSERT_EQ(bendy_get_image(model.get(), 0, 0, &image, &error), BENDY_OK) << error.message;
+    EXPECT_STREQ(image.uri, "");
+}
+
 TEST(CTexture, ImageIsALinkOrBytesOrThoseOfAnotherTexture) {
     const ModelHandle model = open_copy(sample_file());
     bendy_error error = BENDY_ERROR_INIT;

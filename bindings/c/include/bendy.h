@@ -430,7 +430,8 @@ typedef struct bendy_image { /* one encoding of a texture's image: embedded byte
     uint32_t media;    /* a bendy_media; of a link: BENDY_MEDIA_OTHER */
     const void* bytes; /* the encoded image; NULL for a link. Owned by the model */
     size_t byte_count; /* 0 for a link */
-    const char* uri;   /* of a link, relative to the file; NULL for embedded bytes */
+    const char* uri;   /* of a link, relative to the file, as its author wrote it: where it leads is for the reader to
+                          check. "" if it has a zero; NULL for embedded bytes */
     uint32_t texture;  /* texture and image where the bytes or the link are stored. Textures may share an image: a
                           program that loads each such pair once loads none twice */
     uint32_t image;    /* number of that image in `texture` */

@@ -72,8 +72,11 @@ Names names_in(const Model& model) {
         for (const CurveView& curve : clip.curves) curves.push_back({std::string(curve.name), std::string(curve.path)});
         names.markers.push_back(names_of(clip.markers));
     }
-    for (const Texture& texture : model.textures())
-        names.uris.push_back(texts_of(texture.images, [](const ImageView& image) { return image.uri; }));
+    // As a C string, a URI would end at a zero, and name another file.
+    const auto whole_uri = [](const ImageView& image) {
+        return image.uri.find('\0') == std::string_view::npos ? image.uri : std::string_view();
+    };
+    for (const Texture& texture : model.textures()) names.uris.push_back(texts_of(texture.images, whole_uri));
     return names;
 }
 

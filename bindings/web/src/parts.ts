@@ -58,6 +58,7 @@ export interface Material extends Item, BendyMaterial {}
 export interface Image extends Omit<BendyImage, 'bytes' | 'byteCount' | 'uri'> {
   /** A copy of the encoded image; null for a link. */
   readonly bytes: Uint8Array<ArrayBuffer> | null;
+  /** As the file's author wrote it: where it leads is for the reader to check, by what it resolves to. Null for embedded bytes. */
   readonly uri: string | null;
 }
 

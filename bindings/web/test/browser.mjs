@@ -31,7 +31,7 @@ export async function serve(roots) {
     response.writeHead(200, { 'content-type': types[extname(path)] ?? 'application/octet-stream' }).end(content);
   });
   await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-  return { address: `http://127.0.0.1:${server.address().port}/`, requests, close: () => server.close() };
+  return { address: `http://127.0.0.1:${server.address().port}/`, roots, requests, close: () => server.close() };
 }
 
 /** A tab whose errors are kept in `problems`. */

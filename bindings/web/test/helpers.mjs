@@ -1,6 +1,6 @@
 // What the tests share: characters, the native program and both modules.
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -29,6 +29,34 @@ export function convert(file, ...options) {
 
 export function example(name, ...options) {
   return convert(join(repository, 'examples', `${name}.glb`), ...options);
+}
+
+/** The bytes of a bendy file whose images are these links, one for each material. */
+export function linking(links) {
+  const bytes = Buffer.from(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1]).buffer);
+  const gltf = {
+    asset: { version: '2.0' },
+    scenes: [{ nodes: [0] }],
+    nodes: [{ mesh: 0 }],
+    meshes: [{ primitives: links.map((_, k) => ({ attributes: { POSITION: 0, TEXCOORD_0: 1 }, material: k })) }],
+    materials: links.map((_, k) => ({ pbrMetallicRoughness: { baseColorTexture: { index: k } } })),
+    textures: links.map((_, k) => ({ source: k })),
+    images: links.map((_, k) => ({ uri: `link_${k}_.png` })),
+    accessors: [
+      { bufferView: 0, componentType: 5126, count: 3, type: 'VEC3', min: [0, 0, 0], max: [1, 1, 0] },
+      { bufferView: 1, componentType: 5126, count: 3, type: 'VEC2' },
+    ],
+    bufferViews: [{ buffer: 0, byteLength: 36 }, { buffer: 0, byteOffset: 36, byteLength: 24 }],
+    buffers: [{ byteLength: 60, uri: `data:;base64,${bytes.toString('base64')}` }],
+  };
+  const [source, named, text, linked] = ['gltf', 'bendy', 'json', 'bendy'].map((suffix) => join(folder, `${made++}.${suffix}`));
+  writeFileSync(source, JSON.stringify(gltf));
+  bendy(['convert', '-q', source, '--images', 'link', '-o', named]);
+  // Conversion would rewrite some of them.
+  bendy(['dump', named, '-o', text]);
+  writeFileSync(text, readFileSync(text, 'utf8').replace(/"link_(\d+)_.png"/g, (_, k) => JSON.stringify(links[k])));
+  bendy(['assemble', text, '-o', linked, '--allow-invalid']);
+  return read(linked);
 }
 
 /** A file of the corpus, or undefined if the corpus is not there. */

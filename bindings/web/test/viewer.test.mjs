@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { after, before, beforeEach, test } from 'node:test';
 import axe from 'axe-core';
 import { launch, openTab, serve, skip } from './browser.mjs';
-import { bendy, example, folder, repository } from './helpers.mjs';
+import { bendy, example, folder, linking, repository } from './helpers.mjs';
 
 const bundle = readFileSync(new URL('../dist/bundle/bendy-viewer.js', import.meta.url));
 const poster = readFileSync(`${repository}/docs/pictures/mannequin.png`);
@@ -47,6 +47,15 @@ const show = (attributes) =>
     const [type, detail] = seen.at(-1);
     return type === 'load' ? { type } : { type, name: detail.name, kind: detail.kind, code: detail.code, message: detail.message };
   }, attributes);
+
+test('a file from somebody else asks the server for files in its folder only', { skip }, async () => {
+  const { roots } = server;
+  const links = ['.\t./.\n./private/x.png', ' /private/x.png', '..?logout=1', '%2e%2e/private/x.png', '?logout=1', '//private/x.png', '\\private\\x.png', 'wood.png'];
+  Object.assign(roots, { 'their/fox.bendy': linking(links), 'their/wood.png': poster, 'private/x.png': poster });
+  assert.deepEqual(await show({ src: 'their/fox.bendy' }), { type: 'load' });
+  assert.deepEqual(server.requests.sort(), ['their/fox.bendy', 'their/wood.png']);
+  assert.equal(await tab.evaluate(() => viewer.character.warnings.length), links.length - 1);
+});
 
 const frames = (count) =>
   tab.evaluate((left) => new Promise((resolve) => (function next() { left-- > 0 ? requestAnimationFrame(next) : resolve(); })()), count);

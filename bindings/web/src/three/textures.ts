@@ -5,7 +5,6 @@ import {
   LinearMipmapLinearFilter,
   LinearMipmapNearestFilter,
   type Loader,
-  LoaderUtils,
   type MagnificationTextureFilter,
   type MinificationTextureFilter,
   MirroredRepeatWrapping,
@@ -17,6 +16,7 @@ import {
   Texture as ThreeTexture,
 } from 'three';
 import type { Image, Model, Texture, TextureUse } from '../index.js';
+import { addressOfLink } from './links.js';
 
 /** The part of three.js's KTX2Loader that decodes KTX2 images. */
 export interface Ktx2Decoder {
@@ -42,11 +42,6 @@ const filters = {
   linear_mipmap_linear: LinearMipmapLinearFilter,
 };
 const wraps = { repeat: RepeatWrapping, clamp_to_edge: ClampToEdgeWrapping, mirrored_repeat: MirroredRepeatWrapping };
-
-/** Whether a link stays in the folder of the file, as the format's security.md requires. */
-function staysInFolder(uri: string): boolean {
-  return /^data:/i.test(uri) || !(/^([a-z][a-z0-9+.-]*:|[\\/])/i.test(uri) || /(^|[\\/])(\.|%2e){2}([\\/]|$)/i.test(uri));
-}
 
 /** Makes three.js's textures from a model's. */
 export class Textures {
@@ -124,7 +119,7 @@ export class Textures {
         return texture;
       } catch (error) {
         const why = error instanceof Error ? error.message : String(error);
-        const name = image.uri === null || /^data:/i.test(image.uri) ? '' : ` ${image.uri}`;
+        const name = image.uri === null || /^data:/i.test(image.uri) ? '' : ` ${image.uri.replace(/\p{Cc}/gu, encodeURIComponent)}`;
         reasons.push(`the image${name} of texture ${source.number} cannot be loaded: ${why}`);
         console.warn(`BendyLoader: ${reasons.at(-1)}`);
       }
@@ -145,8 +140,7 @@ export class Textures {
       return ofBitmap(await createImageBitmap(blob, { premultiplyAlpha: 'none', colorSpaceConversion: 'none' }));
     }
     if (uri === null) return null;
-    if (!allowsForeignLinks && !staysInFolder(uri)) throw new Error(`the link ${uri} leaves the folder of the file`);
-    const url = LoaderUtils.resolveURL(uri, path);
+    const url = addressOfLink(uri, path, allowsForeignLinks);
     const handler = loader.manager.getHandler(uri);
     if (handler !== null) return (await handler.loadAsync(url)) as ThreeTexture;
     if (typeof createImageBitmap === 'undefined') return new ThreeTexture();
