@@ -92,6 +92,18 @@ TEST_F(MoveLinks, AreLookedForOnlyWhereFilesMayBeRead) {
     EXPECT_TRUE(warned("does not exist"));
 }
 
+TEST_F(MoveLinks, ThatLeadOutAreNamedHoweverTheyAreWritten) {
+    for (const char* uri : {"../a.png", "./../a.png", "sub/../../a.png", "%2e%2e/a.png", "..%2fa.png", "/nowhere/a.png",
+                            "file:///nowhere/a.png"}) {
+        EXPECT_EQ(moved(uri, "in/m.gltf", "in/m.bendy"), uri);
+        EXPECT_TRUE(warned("leads out of the output's folder")) << uri;
+    }
+    for (const char* uri : {"sub/../a.png", "..a.png", "%2e%2ea.png", ".../a.png"}) {
+        moved(uri, "in/m.gltf", "in/m.bendy");
+        EXPECT_FALSE(warned("leads out of the output's folder")) << uri;
+    }
+}
+
 TEST_F(MoveLinks, FollowASymbolicLinkToTheFolder) {
     make("real/deep/here/x");
     make("lk/axe.jpg");

@@ -197,6 +197,24 @@ TEST(GltfMaterial, ImagesFromFilesAndDataUris) {
     EXPECT_TRUE(referred.report.warnings().empty());
 }
 
+TEST(GltfMaterial, ControlCharactersInAnImagesUriAreEncoded) {
+    Gltf gltf = make_triangle();
+    gltf.json["images"] = {{{"uri", "tab\there.png"}}, {{"uri", ".\t./\xc2\x85\n.png"}}};
+    write_file("tab\there.png", kPng);
+    GltfOptions options;
+    options.embed_images = false;
+    const Import linked = gltf.import(options);
+    EXPECT_EQ(linked->images.at(0).uri, "tab%09here.png");
+    EXPECT_EQ(linked->images.at(1).uri, ".%09./%C2%85%0A.png");
+    EXPECT_EQ(linked.warned("control characters of a URI are percent-encoded: 'tab%09here.png'"), 1u);
+    EXPECT_EQ(linked.warned("control characters of a URI are percent-encoded: '.%09./%C2%85%0A.png'"), 1u);
+
+    const Import embedded = gltf.import();
+    EXPECT_EQ(embedded->images.at(0).bytes, kPng);  // the name means the same file
+    EXPECT_EQ(embedded->images.at(1).uri, ".%09./%C2%85%0A.png");
+    EXPECT_TRUE(embedded->images.at(1).bytes.empty());
+}
+
 TEST(GltfMaterial, ImagesOutsideTheFolderStayLinks) {
     Gltf gltf = make_triangle();
     gltf.json["images"] = {{{"uri", "../bendy_secret.png"}}, {{"uri", ".\\in.png"}}, {{"uri", "..\\bendy_secret.png"}}};

@@ -275,7 +275,7 @@ public:
 private:
     void read_uri(const std::string& uri, const std::string& place, Image& image) const {
         if (!is_data_uri(uri)) {
-            image.uri = uri;
+            image.uri = without_controls(uri, place, document_.report);
             if (embed_) document_.files.embed(image, place);
             return;
         }

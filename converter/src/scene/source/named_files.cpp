@@ -29,6 +29,8 @@ std::filesystem::path NamedFiles::find(const std::string& uri, const std::string
     switch (file.error()) {
         case LinkProblem::empty:
             fail(place, "the URI is empty");
+        case LinkProblem::control:
+            fail(place, "a URI has no control characters; percent-encode those of " + quote(uri));
         case LinkProblem::scheme:
             fail(place, "only files beside the source and data URIs are read, not " + quote(uri));
         case LinkProblem::no_name:

@@ -77,6 +77,12 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
     return error ? folder.lexically_normal() : canonical;
 }
 
+/// Appends a byte as %20, for example.
+void append_encoded(std::string& uri, unsigned char byte) {
+    constexpr std::string_view kHex = "0123456789ABCDEF";
+    uri.append({'%', kHex[byte >> 4], kHex[byte & 15]});
+}
+
 /// Fails with "cannot read file 'a.bin': Too many open files".
 /// \param number  the system's error code; 0: unknown
 [[noreturn]] void fail_to_read(const std::string& place, const std::filesystem::path& file, int number) {
@@ -156,8 +162,22 @@ std::string why_outside(const ReadableFolders& folders, std::string_view uri) {
     return quote(uri) + " is outside the source's folder: --root FOLDER allows a folder that it is in";
 }
 
+std::string without_controls(std::string_view uri, const std::string& place, Report& report) {
+    std::string encoded;
+    std::string_view rest = uri;
+    for (std::size_t at = find_control(rest); at != std::string_view::npos; at = find_control(rest)) {
+        encoded += rest.substr(0, at);
+        // Beyond ASCII, control characters take two bytes.
+        const std::size_t size = static_cast<unsigned char>(rest[at]) < 0x80 ? 1 : 2;
+        for (const char byte : rest.substr(at, size)) append_encoded(encoded, static_cast<unsigned char>(byte));
+        rest.remove_prefix(at + size);
+    }
+    encoded += rest;
+    if (encoded != uri) report.warn("control characters of a URI are percent-encoded: " + quote(encoded), place);
+    return encoded;
+}
+
 std::string uri_of(const std::filesystem::path& path) {
-    constexpr std::string_view kHex = "0123456789ABCDEF";
     constexpr std::string_view kPlain = "-._~/";
     std::string uri;
     for (const char8_t letter : path.generic_u8string()) {
@@ -168,7 +188,7 @@ std::string uri_of(const std::filesystem::path& path) {
         if (is_plain) {
             uri += static_cast<char>(code);
         } else {
-            uri.append({'%', kHex[code >> 4], kHex[code & 15]});
+            append_encoded(uri, code);
         }
     }
     return uri;
@@ -192,6 +212,7 @@ void move_links(Scene& scene, const std::filesystem::path& from, const std::file
                 const ReadableFolders& folders, Report& report) {
     const std::filesystem::path source = folder_of(from);
     const std::filesystem::path folder = folder_of(to);
+    const ReadableFolders shown = ReadableFolders::of(to);
     for (std::size_t i = 0; i < scene.images.size(); ++i) {
         Image& image = scene.images[i];
         if (!image.bytes.empty() || image.uri.empty()) continue;
@@ -206,7 +227,7 @@ void move_links(Scene& scene, const std::filesystem::path& from, const std::file
         const bool is_relative = !has_scheme && !linked_file(image.uri, {})->has_root_path();
         const bool has_backslash = image.uri.find('\\') != std::string::npos;  // invalid in a URI
         if ((source != folder || has_backslash) && is_relative) image.uri = uri_between(to, found ? *found : *file);
-        if (image.uri.starts_with("../")) {
+        if (!shown.find(image.uri)) {
             report.warn("link to an image leads out of the output's folder, where the viewer does not follow it: " +
                             quote(image.uri),
                         place);

@@ -61,6 +61,10 @@ ReadableFolders folders_of_bytes(const std::filesystem::path& name, const std::f
 /// The message for a name that `folders` do not allow, with the option that allows it.
 std::string why_outside(const ReadableFolders& folders, std::string_view uri);
 
+/// A source's URI with its control characters percent-encoded, which no URI may hold: programs on the web leave some of
+/// them out before they look where the URI leads. Warns at `place` if there are any.
+std::string without_controls(std::string_view uri, const std::string& place, Report& report);
+
 /// A relative path as a URI, percent-encoded where necessary.
 std::string uri_of(const std::filesystem::path& path);
 
