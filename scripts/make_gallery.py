@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Makes the gallery, a live page for each capability: scripts/make_gallery.py [FOLDER], build/gallery if not named.
+"""Makes the gallery, a live page for each capability.
 
 docs/gallery/README.md says what the pages are made of. Needs the npm package, which scripts/web.sh builds, and the program:
 BENDY_PROGRAM, or build/release/cli/bendy. The pages ask only for files in FOLDER, by http: python3 -m http.server -d FOLDER.
 """
 
+import argparse
 import html
 import json
 import os
@@ -15,6 +16,7 @@ import sys
 from pathlib import Path
 
 import notices
+from own_folder import made_anew
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCES = ROOT / "docs/gallery"
@@ -91,8 +93,7 @@ def is_package_built():
 
 
 def make(folder):
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
+    """Fills an empty folder."""
     write_pages(folder)
     shutil.copy(SOURCES / "stage.js", folder)
     copy_modules(folder)
@@ -100,11 +101,15 @@ def make(folder):
 
 
 def main():
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/gallery").resolve()
-    if not is_package_built():
-        sys.exit("bindings/web/dist is not complete: scripts/web.sh makes it")
-    make(folder)
-    print(folder / "index.html")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", nargs="?", type=Path, default=ROOT / "build/gallery", metavar="FOLDER",
+                        help="a new folder, or one that this script has made: build/gallery if not named")
+    folder = parser.parse_args().folder
+    with made_anew(folder, "scripts/make_gallery.py") as fresh:
+        if not is_package_built():
+            sys.exit("bindings/web/dist is not complete: scripts/web.sh makes it")
+        make(fresh)
+    print(folder.resolve() / "index.html")
     return 0
 
 

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Makes one site of the documentation: scripts/make_site.py [FOLDER], build/site if not named.
+"""Makes one site of the documentation.
 
 The pages stay where they are in the tree; what docs/mkdocs.yml lists, and all that is linked from there, is gathered in
 FOLDER/pages, and mkdocs makes FOLDER/site of it. A link that leads nowhere is a fault. If scripts/web.sh has built the npm package,
 the site also has the page that converts and shows characters, page.html, and the gallery, gallery/index.html.
 """
 
+import argparse
 import re
 import shutil
 import subprocess
@@ -13,6 +14,7 @@ import sys
 from pathlib import Path
 
 import make_gallery
+from own_folder import made_anew
 
 ROOT = Path(__file__).resolve().parent.parent
 LINK = re.compile(r"(\]\()([^)\s]+)(\))")
@@ -93,28 +95,37 @@ def gather(first, pages):
     return faults
 
 
-def main():
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/site").resolve()
+def make(folder):
+    """Fills an empty folder."""
     pages = folder / "pages"
-    shutil.rmtree(pages, ignore_errors=True)
-    pages.mkdir(parents=True)
+    pages.mkdir()
     settings = menu((ROOT / "docs/mkdocs.yml").read_text(encoding="utf-8"))
     (folder / "mkdocs.yml").write_text(settings, encoding="utf-8")
     listed_pages = [ROOT / name for name in re.findall(r"^\s+- .*: (\S+\.md)$", settings, re.MULTILINE)]
     faults = [f"docs/mkdocs.yml: {page.relative_to(ROOT)} is not there" for page in listed_pages if not page.exists()]
     faults += gather([page for page in listed_pages if page.exists()], pages)
     if faults:
-        print(*faults, sep="\n", file=sys.stderr)
-        return 1
-    done = subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--clean", "-f", str(folder / "mkdocs.yml")], check=False)
-    if done.returncode == 0:
-        page = ROOT / "bindings/web/dist/page.html"
-        if page.exists():
-            shutil.copy(page, folder / "site")
-        if make_gallery.is_package_built():
-            make_gallery.make(folder / "site/gallery")
-        print(f"{folder}/site/index.html")
-    return done.returncode
+        sys.exit("\n".join(faults))
+    done = subprocess.run(["mkdocs", "build", "--strict", "--quiet", "-f", str(folder / "mkdocs.yml")], check=False)
+    if done.returncode != 0:
+        sys.exit(done.returncode)
+    page = ROOT / "bindings/web/dist/page.html"
+    if page.exists():
+        shutil.copy(page, folder / "site")
+    if make_gallery.is_package_built():
+        (folder / "site/gallery").mkdir()
+        make_gallery.make(folder / "site/gallery")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", nargs="?", type=Path, default=ROOT / "build/site", metavar="FOLDER",
+                        help="a new folder, or one that this script has made: build/site if not named")
+    folder = parser.parse_args().folder
+    with made_anew(folder, "scripts/make_site.py") as fresh:
+        make(fresh)
+    print(f"{folder.resolve()}/site/index.html")
+    return 0
 
 
 if __name__ == "__main__":

@@ -5,15 +5,16 @@ import tempfile
 from pathlib import Path
 
 from archives import write_zip
-from project import ROOT, VERSION, epoch, run
+from project import VERSION, epoch, run
 
 
 def make_debian(folder, log):
-    packages = ROOT / "build/deb/packages"
-    shutil.rmtree(packages, ignore_errors=True)
-    run("cmake", "--workflow", "--preset", "deb", log=log)
-    for package in packages.glob("*.deb"):
-        shutil.copy(package, folder)
+    run("cmake", "--preset", "deb", log=log)
+    run("cmake", "--build", "--preset", "deb", log=log)
+    with tempfile.TemporaryDirectory() as name:  # build/deb/packages may have those of other versions
+        run("cpack", "--preset", "deb", "-B", name, log=log)
+        for package in Path(name).glob("*.deb"):
+            shutil.copy(package, folder)
 
 
 def make_wheel(folder, log):

@@ -12,7 +12,6 @@ The same commit gives the same bytes, with the same tools. What the tools say go
 
 import argparse
 import hashlib
-import shutil
 import sys
 import time
 from pathlib import Path
@@ -22,6 +21,9 @@ import sbom
 from artefacts import ARTEFACTS
 from project import ROOT, VERSION, git
 from versions import check_versions
+
+sys.path.insert(0, str(ROOT / "scripts"))
+from own_folder import made_anew  # noqa: E402
 
 LOGS = ROOT / "build/release-logs"
 NAMES = [artefact.name for artefact in ARTEFACTS]
@@ -76,19 +78,15 @@ def main():
     if not options.allow_changes and git("status", "--porcelain"):
         sys.exit("scripts/release.sh: there are changes that are not committed; a release is made from a commit")
     chosen = [artefact for artefact in ARTEFACTS if artefact.name in options.only and artefact.name not in options.without]
-    folder = options.folder.resolve()
-    if folder.exists() and not (folder / "SHA256SUMS").exists() and any(folder.iterdir()):
-        sys.exit(f"scripts/release.sh: {folder} has files that are not of a release")
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    LOGS.mkdir(parents=True, exist_ok=True)
-    made = make_artefacts(chosen, folder)
-    sbom.make(folder, {name: artefact.kind for name, artefact in made.items()})
-    notes.make(folder, {name: artefact.what for name, artefact in made.items()} | {sbom.NAME: "what is in these files (SPDX)"})
-    write_checksums(folder)
-    print()
-    for path in sorted(folder.iterdir()):
-        print(f"{path.stat().st_size:>12,}  {path.name}")
+    with made_anew(options.folder, "scripts/release.sh") as folder:
+        LOGS.mkdir(parents=True, exist_ok=True)
+        made = make_artefacts(chosen, folder)
+        sbom.make(folder, {name: artefact.kind for name, artefact in made.items()})
+        notes.make(folder, {name: artefact.what for name, artefact in made.items()} | {sbom.NAME: "what is in these files (SPDX)"})
+        write_checksums(folder)
+        print()
+        for path in sorted(folder.iterdir()):
+            print(f"{path.stat().st_size:>12,}  {path.name}")
     left_out = [name for name in NAMES if name not in [artefact.name for artefact in chosen]]
     if left_out:
         print(f"\nLeft out: {', '.join(left_out)}")

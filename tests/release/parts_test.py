@@ -3,6 +3,7 @@
 
 import hashlib
 import os
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -14,6 +15,7 @@ import archives  # noqa: E402
 import check_manifest  # noqa: E402
 import make_gallery  # noqa: E402
 import notes  # noqa: E402
+import own_folder  # noqa: E402
 import sbom  # noqa: E402
 import versions  # noqa: E402
 
@@ -32,11 +34,113 @@ def digest(path):
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-class Parts(unittest.TestCase):
+class InFolder(unittest.TestCase):
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
+        self.folder = Path(temporary.name).resolve()
+
+
+class OwnFolders(InFolder):
+    """A script replaces what it has made, and nothing else."""
+
+    def make(self, names=("index.html", "deep/er/page.html"), folder="made", script="scripts/one.py"):
+        with own_folder.made_anew(self.folder / folder, script) as fresh:
+            for name in names:
+                (fresh / name).parent.mkdir(parents=True, exist_ok=True)
+                (fresh / name).write_text(name)
+
+    def files(self):
+        return {path.relative_to(self.folder).as_posix() for path in self.folder.rglob("*") if path.is_symlink() or path.is_file()}
+
+    def refused(self, *named, **options):
+        before = self.files()
+        with self.assertRaises(SystemExit) as refusal:
+            self.make(**options)
+        for name in named:
+            self.assertIn(name, str(refusal.exception))
+        self.assertEqual(self.files(), before)
+
+    def test_what_was_made_is_replaced(self):
+        self.make()
+        self.make(("index.html", "other.html"))
+        self.assertEqual(self.files(), {"made/.made.json", "made/index.html", "made/other.html"})
+        (self.folder / "empty").mkdir()
+        self.make(folder="empty")
+
+    def test_anything_else_is_named_and_stays(self):
+        self.make()
+        for name in ("made/notes.txt", "made/deep/mine/.hidden"):
+            (self.folder / name).parent.mkdir(exist_ok=True)
+            (self.folder / name).write_text("mine")
+            self.refused(name.removeprefix("made/"))
+            (self.folder / name).unlink()
+        self.refused("deep/mine/")  # a folder, if it is empty
+        (self.folder / "made/deep/mine").rmdir()
+        (self.folder / "made/index.html").write_text("changed since")
+        self.refused("index.html")
+
+    def test_links_are_not_followed(self):
+        (self.folder / "far").mkdir()
+        (self.folder / "far/away.txt").write_text("mine")
+        self.make()
+        (self.folder / "made/link").symlink_to(self.folder / "far")
+        self.refused("link")
+        (self.folder / "made/link").unlink()
+        (self.folder / "made/index.html").unlink()
+        (self.folder / "made/index.html").symlink_to(self.folder / "far/away.txt")
+        self.refused("index.html")
+
+    def test_a_record_is_of_its_script_and_cannot_claim_more(self):
+        self.make()
+        self.refused("index.html", script="scripts/two.py")
+        (self.folder / "mine").mkdir()
+        (self.folder / "mine/file.txt").write_text("mine")
+        for record in ("", "[1]", "{}", '{"made by": "scripts/one.py", "files": ["file.txt"]}', '{"made by": "scripts/one.py", "files": {"file.txt": 1}}'):
+            (self.folder / "mine" / own_folder.MADE).write_text(record)
+            self.refused("file.txt", folder="mine")
+        (self.folder / "mine/SHA256SUMS").write_text(f"{digest(self.folder / 'mine/file.txt')}  file.txt\n")
+        self.refused("file.txt", folder="mine")
+        (self.folder / "file").write_text("mine")
+        self.refused("is not a folder", folder="file")
+
+    def test_a_failure_leaves_the_old_ones(self):
+        self.make()
+        before = self.files()
+        with self.assertRaises(ValueError), own_folder.made_anew(self.folder / "made", "scripts/one.py") as fresh:
+            (fresh / "half.html").write_text("half")
+            raise ValueError
+        self.assertEqual(self.files(), before)
+
+    def test_many_files_of_others_are_not_all_listed(self):
+        for number in range(20):
+            (self.folder / f"{number:02}").write_text("mine")
+        self.refused("00, 01, 02 and more", folder=".")
+
+    def test_work_folders_are_new_or_below_a_build(self):
+        mine = self.folder / "mine"
+        mine.mkdir()
+        own_folder.work_folder(mine)
+        (mine / "file.txt").write_text("mine")
+        with self.assertRaises(SystemExit):
+            own_folder.work_folder(mine)
+        (self.folder / "CMakeCache.txt").touch()
+        self.assertEqual(own_folder.work_folder(mine), mine)
+
+    def test_scripts_refuse_folders_of_others(self):
+        (self.folder / "mine.txt").write_text("mine")
+        for script in ("make_gallery.py", "make_site.py", "release/run.py"):
+            command = [sys.executable, "-B", ROOT / "scripts" / script]
+            allowed = ["--allow-changes"] if script == "release/run.py" else []
+            for arguments, status, said in (([*allowed, self.folder], 1, "mine.txt"), (["--help"], 0, "usage"), (["--hlep"], 2, "--hlep")):
+                with self.subTest(script=script, arguments=arguments):
+                    result = subprocess.run([*command, *arguments], cwd=self.folder, capture_output=True, text=True, check=False)
+                    self.assertEqual(result.returncode, status, result.stderr)
+                    self.assertIn(said, result.stdout + result.stderr)
+                    self.assertEqual(self.files(), {"mine.txt"})
+
+
+class Parts(InFolder):
 
     def test_archives_depend_on_names_and_contents_only(self):
         for write in (archives.write_tar, archives.write_zip):
