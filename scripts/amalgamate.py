@@ -143,8 +143,12 @@ def main():
                 continue
             (kernels if instructions else source).extend(make_source(joiner, folder, name, instructions))
 
+    files = {"bendy_runtime.h": ["#pragma once", *header], "bendy_runtime.cpp": source + kernels}
+    for name in files:
+        if (output / name).exists() and not (output / name).read_bytes().startswith(head[:20].encode()):
+            sys.exit(f"amalgamate.py: {output / name} is there and was not made by this script")
     output.mkdir(parents=True, exist_ok=True)
-    for name, lines in (("bendy_runtime.h", ["#pragma once", *header]), ("bendy_runtime.cpp", source + kernels)):
+    for name, lines in files.items():
         (output / name).write_text(head + "\n".join(lines) + "\n", encoding="utf-8")
     return 0
 

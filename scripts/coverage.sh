@@ -20,6 +20,10 @@ export_counts() {
 case ${1:-} in
     table) export_counts | python3 scripts/coverage_table.py; exit ;;
     missed) export_counts | python3 scripts/missed_branches.py "${@:2}"; exit ;;
+    ?*)
+        echo "usage: scripts/coverage.sh [table|missed [FILE...]]" >&2
+        exit 2
+        ;;
 esac
 
 # Assertions are off: the caller's mistakes that they catch are not branches that a file can take.

@@ -8,6 +8,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+case ${1:-5} in
+    *[!0-9]* | "")
+        echo "usage: scripts/fuzz.sh [SECONDS [TARGET...]]" >&2
+        exit 2
+        ;;
+esac
 targets=("${@:2}")
 build=build/fuzz
 if [ $# = 0 ]; then

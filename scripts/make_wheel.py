@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 """Builds a wheel of the Python package that contains the libraries it needs, for Linux systems without them.
 
-    scripts/make_wheel.py [FOLDER]        FOLDER/bendy-VERSION-...-manylinux_2_N_ARCH.whl; build/wheel if not given
-
 `pip install .` and `pip wheel .` link the system's libraries instead. The libraries that every Linux desktop has
 (glibc, libstdc++, X11) stay outside, as PEP 600 allows. N is the oldest glibc, 2.N, that has all the symbols used.
 Setting BENDY_BUILD_DIR takes the module from a build folder, as in setup.py. Needs Debian, patchelf, and pip, setuptools
 and wheel of the Python that runs this script.
 """
 
+import argparse
 import hashlib
 import os
 import platform
@@ -80,12 +79,12 @@ def bundle(module, folder, licences):
 
 
 def main():
-    if len(sys.argv) > 2 or sys.argv[1:2] in (["-h"], ["--help"]):
-        print(__doc__.strip())
-        return 0 if len(sys.argv) == 2 else 2
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", nargs="?", type=Path, default=ROOT / "build/wheel", metavar="FOLDER",
+                        help="where bendy-VERSION-...-manylinux_2_N_ARCH.whl goes: build/wheel if not named")
+    output = parser.parse_args().folder.resolve()
     if shutil.which("patchelf") is None:
         sys.exit("patchelf is missing; install it with: sudo apt-get install patchelf")
-    output = Path(sys.argv[1] if len(sys.argv) == 2 else ROOT / "build/wheel").resolve()
     output.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="bendy-wheel-") as name:
         work = Path(name)

@@ -1,5 +1,6 @@
 """Folders that scripts fill. A script removes nothing there but what it has made itself, and says what else it has found."""
 
+import argparse
 import contextlib
 import hashlib
 import itertools
@@ -92,10 +93,10 @@ def made_anew(folder, script):
 
 
 def work_folder(folder):
-    """Returns the folder, made if it is not there, for a test that empties parts of it: one in a build folder, or an empty one."""
+    """The type of an argument: a folder for a test that empties it or parts of it. One below a build folder, or an empty one; it is made."""
     folder = Path(folder).resolve()
     is_built = BUILD in folder.parents or any((above / "CMakeCache.txt").exists() for above in folder.parents)
     if folder.exists() and not is_built and (not folder.is_dir() or any(folder.iterdir())):
-        sys.exit(f"{folder} has files of others: name a new folder, or one below {BUILD}")
+        raise argparse.ArgumentTypeError(f"{folder} may have files of others: name a new folder, or one below {BUILD}")
     folder.mkdir(parents=True, exist_ok=True)
     return folder

@@ -8,6 +8,13 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 what=${1:-all}
+case $what in
+    all | package | runtime) ;;
+    *)
+        echo "usage: scripts/web.sh [package|runtime]" >&2
+        exit 2
+        ;;
+esac
 [ "$what" = runtime ] || scripts/setup.sh web
 PATH=/usr/bin:$PATH # emscripten's scripts are for the system's Python
 export NODE_PATH=/usr/share/nodejs # where emscripten's acorn is

@@ -99,6 +99,8 @@ def schemas(rig):
 
 
 def main():
+    if sys.argv[1:] not in ([], ["--check"]):
+        sys.exit(__doc__)
     is_check = sys.argv[1:] == ["--check"]
     rig = json.loads((HERE / "rig.schema.json").read_text(encoding="utf-8"))
     status = 0

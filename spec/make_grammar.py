@@ -299,6 +299,8 @@ def write_imhex():
 
 
 def main():
+    if sys.argv[1:] not in ([], ["--check"]):
+        sys.exit(__doc__)
     is_same = True
     for name, write in (("bendy.ksy", write_kaitai), ("bendy.hexpat", write_imhex)):
         text = (HERE / (name + ".in")).read_text(encoding="utf-8")

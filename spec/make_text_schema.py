@@ -148,6 +148,8 @@ def schema():
 
 
 def main():
+    if sys.argv[1:] not in ([], ["--check"]):
+        sys.exit(__doc__)
     path = HERE / "text.schema.json"
     text = json.dumps(schema(), indent=1) + "\n"
     if sys.argv[1:] == ["--check"]:

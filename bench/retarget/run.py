@@ -23,6 +23,9 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.append(str(HERE.parents[1] / "scripts"))
+from own_folder import work_folder  # noqa: E402
+
 RIGS = HERE.parent / "rigs.json"
 FREE = ("--ignore-constraints", "--free-feet")
 SURFACE = ("--strip", "meshes", "--strip", "textures", "--strip", "materials")
@@ -180,15 +183,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--chars", required=True, nargs="+", type=pathlib.Path)
     parser.add_argument("--bendy", default=HERE.parent.parent / "build/release/cli/bendy", type=pathlib.Path)
-    parser.add_argument("--work", default=pathlib.Path("build/bench-retarget"), type=pathlib.Path)
+    parser.add_argument("--work", default="build/bench-retarget", type=work_folder)
     parser.add_argument("--from", dest="source", default="")
     parser.add_argument("--to", dest="target", default="")
     parser.add_argument("--kind", choices=("human", "quadruped", "bird"))
     parser.add_argument("--no-limits", action="store_true")
     parser.add_argument("--json", type=pathlib.Path)
     options = parser.parse_args()
-    options.work.mkdir(parents=True, exist_ok=True)
-    bench = Bench(options.bendy.resolve(), [*options.chars, HERE.parent.parent / "examples"], options.work.resolve(),
+    bench = Bench(options.bendy.resolve(), [*options.chars, HERE.parent.parent / "examples"], options.work,
                   () if options.no_limits else ("--auto-rig",))
     install(bench.work)
     listed = [rig for rig in json.loads(RIGS.read_text(encoding="utf-8")) if "clips" in rig

@@ -1,5 +1,9 @@
 #!/bin/sh
 # Makes bendy_rig.zip, which Blender's preferences install: make_zip.sh [FOLDER]. The same files give the same bytes.
+if [ $# -gt 1 ] || [ ! -d "${1:-.}" ]; then
+    echo "usage: make_zip.sh [FOLDER]: a folder that is there" >&2
+    exit 2
+fi
 python3 -B - "$(dirname "$0")" "${1:-.}" <<'END'
 import pathlib, sys, zipfile
 source, folder = map(pathlib.Path, sys.argv[1:])

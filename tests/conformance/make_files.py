@@ -65,7 +65,7 @@ def main(arguments):
             continue
         if path in wanted:
             path.write_bytes(wanted[path])
-        else:
+        elif path.read_text(encoding='utf-8').startswith('{"family": '):  # it has made no other
             path.unlink()
     return 1 if arguments and stale else 0
 

@@ -18,6 +18,9 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts"))
+from own_folder import work_folder  # noqa: E402
+
 HERE = Path(__file__).resolve().parent
 TOLERANCE = 1e-5
 SKIPPED = 77
@@ -136,13 +139,12 @@ def sources_of(corpus):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--bendy", required=True)
-    parser.add_argument("--work", required=True, type=Path)
+    parser.add_argument("--work", required=True, type=work_folder)
     parser.add_argument("--corpus", type=Path)
     parser.add_argument("--npm", default="npm")
     parser.add_argument("--only")
     options = parser.parse_args()
-    work = options.work.resolve()
-    work.mkdir(parents=True, exist_ok=True)
+    work = options.work
     if not install(work, options.npm):
         print("npm ci failed: nobody was asked")
         return SKIPPED

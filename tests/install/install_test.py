@@ -11,6 +11,9 @@ import sys
 import unittest
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts"))
+from own_folder import work_folder  # noqa: E402
+
 ARGUMENTS = argparse.Namespace()
 EMBED = Path(__file__).resolve().parent / "embed"
 
@@ -182,7 +185,7 @@ def main():
     parser.add_argument("--source", required=True, type=Path)
     parser.add_argument("--build", required=True, type=Path, help="a static build")
     parser.add_argument("--prefix", required=True, type=Path, help="where that is installed")
-    parser.add_argument("--work", required=True, type=Path, help="a folder to work in")
+    parser.add_argument("--work", required=True, type=work_folder, help="a folder to work in")
     _, rest = parser.parse_known_args(namespace=ARGUMENTS)
     unittest.main(argv=[sys.argv[0], *rest])
 

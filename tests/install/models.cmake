@@ -50,6 +50,7 @@ function(check generator)
   run(${PREFIX}/bin/bendy validate ${work}/build/out/a.bendy "${work}/build/out/deeper/b b.bendy")
 endfunction()
 
-file(REMOVE_RECURSE ${WORK_DIR})
+include(${CMAKE_CURRENT_LIST_DIR}/empty_folder.cmake)
+empty_folder(${WORK_DIR})
 check(Ninja)
 check("Unix Makefiles")

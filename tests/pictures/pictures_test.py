@@ -18,10 +18,11 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True  # nothing into the source tree
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "viewer")]
+sys.path[:0] = [str(HERE), str(HERE.parent / "viewer"), str(HERE.parents[1] / "scripts")]
 import browser  # noqa: E402
 from compare_pictures import Difference, side_by_side  # noqa: E402
 from made_files import MADE  # noqa: E402
+from own_folder import work_folder  # noqa: E402
 from png_file import read_png, write_png  # noqa: E402
 
 SKIPPED = 77
@@ -121,7 +122,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bendy", required=True)
     parser.add_argument("--source", type=Path, required=True)
-    parser.add_argument("--work", type=Path, required=True)
+    parser.add_argument("--work", type=work_folder, required=True)
     parser.add_argument("--npm", default="npm")
     parser.add_argument("--corpus", type=Path)
     parser.add_argument("--only", nargs="*")
@@ -129,7 +130,7 @@ def main():
     parser.add_argument("files", nargs="*", type=Path)
     arguments = parser.parse_args()
     bendy = str(Path(arguments.bendy).resolve())
-    work = arguments.work.resolve()
+    work = arguments.work
     pictures = work / "pictures"
     shutil.rmtree(pictures, ignore_errors=True)
     pictures.mkdir(parents=True)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The parts of scripts/release.sh that need no build: archives, notes, the add-on's manifest, versions, the pages of the gallery."""
 
+import argparse
 import hashlib
 import os
 import subprocess
@@ -122,7 +123,7 @@ class OwnFolders(InFolder):
         mine.mkdir()
         own_folder.work_folder(mine)
         (mine / "file.txt").write_text("mine")
-        with self.assertRaises(SystemExit):
+        with self.assertRaises(argparse.ArgumentTypeError):
             own_folder.work_folder(mine)
         (self.folder / "CMakeCache.txt").touch()
         self.assertEqual(own_folder.work_folder(mine), mine)

@@ -20,6 +20,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts"))
+from own_folder import work_folder  # noqa: E402
+
 TOLERANCE = 1e-6  # of the character's largest coordinate, at least 1: some units in the last place of an f32
 PLACES = 50  # at which a small file is cut and changed
 SHARES = (0.31, 0.77)  # of a clip: the times that are compared
@@ -203,12 +206,12 @@ def main():
     parser.add_argument("--bendy", required=True)
     parser.add_argument("--cc", default="cc")
     parser.add_argument("--source", type=Path, required=True)
-    parser.add_argument("--work", type=Path, required=True)
+    parser.add_argument("--work", type=work_folder, required=True)
     parser.add_argument("--corpus", type=Path, help="left out where there is none")
     parser.add_argument("--readers", type=Path, help="other readers than those of spec/readers: to see that the test can fail")
     options = parser.parse_args()
-    shutil.rmtree(options.work, ignore_errors=True)
-    options.work.mkdir(parents=True)
+    shutil.rmtree(options.work)
+    options.work.mkdir()
     return Test(options).run()
 
 

@@ -31,6 +31,12 @@ function install() {
     return true;
 }
 
+// `npm ci` and this script empty folders there: as scripts/own_folder.py has it.
+const isBuilt = (folder) => fs.existsSync(path.join(folder, 'CMakeCache.txt')) || (folder !== path.dirname(folder) && isBuilt(path.dirname(folder)));
+if (fs.existsSync(options.work) && fs.readdirSync(options.work).length > 0 && !isBuilt(path.dirname(path.resolve(options.work)))) {
+    console.error(`${options.work} may have files of others: name a new folder, or one in a build folder`);
+    process.exit(2);
+}
 fs.mkdirSync(options.work, { recursive: true });
 for (const name of fs.readdirSync(here))
     if (name.endsWith('.mjs') || name.endsWith('.json')) fs.copyFileSync(path.join(here, name), path.join(options.work, name));
