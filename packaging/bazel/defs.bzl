@@ -85,15 +85,16 @@ def bendy_models(name, srcs, **attributes):
 
     Args:
       name: of the group.
-      srcs: the sources; no two may differ only in their suffix.
+      srcs: the sources; no two may differ only in their suffix or in the case of letters.
       **attributes: those of bendy_model, for each of them.
     """
-    targets = []
+    targets, stems = [], {}
     for src in srcs:
         stem = src.split(":")[-1].rpartition(".")[0]
         target = "%s/%s" % (name, stem)
-        if target in targets:
-            fail("bendy_models(%s): two sources would become %s.bendy" % (name, target), "srcs")
+        if stem.lower() in stems:  # some systems ignore the case of names
+            fail("bendy_models(%s): both %s and %s would become %s.bendy" % (name, stems[stem.lower()], src, target), "srcs")
+        stems[stem.lower()] = src
         targets.append(target)
         bendy_model(name = target, src = src, **attributes)
     native.filegroup(name = name, srcs = targets, visibility = attributes.get("visibility"))

@@ -113,7 +113,8 @@ class Bazel(unittest.TestCase):
         self.refused(f'bendy_model(name = "a", src = "mannequin.glb", options = ["--rig=x.json"], {program})', "use the attribute rig")
         self.refused(f'bendy_model(name = "a", src = "mannequin.glb", options = ["--force"], {program})', "--force is not for a build")
         self.refused(f'bendy_model(name = "a", src = "parted.bin", {program})', "parted.bin")
-        self.refused(f'bendy_models(name = "a", srcs = ["mannequin.glb", "mannequin.vrm"], {program})', "a/mannequin.bendy")
+        self.refused(f'bendy_models(name = "a", srcs = ["mannequin.glb", "mannequin.vrm"], {program})', "both mannequin.glb and mannequin.vrm")
+        self.refused(f'bendy_models(name = "a", srcs = ["mannequin.glb", "Mannequin.vrm"], {program})', "would become a/Mannequin.bendy")
 
 
 if __name__ == "__main__":

@@ -50,7 +50,21 @@ function(check generator)
   run(${PREFIX}/bin/bendy validate ${work}/build/out/a.bendy "${work}/build/out/deeper/b b.bendy")
 endfunction()
 
+# A project that would write one file twice is refused before anything is built.
+function(expect_refused words)
+  file(WRITE ${WORK_DIR}/refused/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)\nproject(models LANGUAGES CXX)\nfind_package(bendy REQUIRED)\n${ARGN}\n")
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${WORK_DIR}/refused -B ${WORK_DIR}/refused/build -G Ninja -DCMAKE_CXX_COMPILER=${CXX}
+    -DCMAKE_PREFIX_PATH=${PREFIX} ERROR_VARIABLE said OUTPUT_QUIET RESULT_VARIABLE failed)
+  string(REGEX REPLACE "[ \n]+" " " said "${said}")
+  if(NOT failed OR NOT said MATCHES "${words}")
+    message(FATAL_ERROR "expected \"${words}\", found ${failed}: ${said}")
+  endif()
+endfunction()
+
 include(${CMAKE_CURRENT_LIST_DIR}/empty_folder.cmake)
 empty_folder(${WORK_DIR})
+expect_refused("both [^ ]*/dog.glb and [^ ]*/dog.vrm would become" "bendy_add_models(one FILES dog.glb dog.vrm)")
+expect_refused("both [^ ]*/dog.glb and [^ ]*/DOG.glb would become" "bendy_add_models(one FILES dog.glb)\nbendy_add_models(two FILES DOG.glb)")
+expect_refused("dog.bendy would replace itself" "bendy_add_models(one FILES dog.bendy OUTPUT_DIRECTORY \${CMAKE_CURRENT_SOURCE_DIR})")
 check(Ninja)
 check("Unix Makefiles")

@@ -69,6 +69,53 @@ def test_the_pipeline_example(tmp_path):
     assert again.returncode == 2 and "overwrite" in again.stderr
 
 
+def test_the_pipeline_loses_nothing(tmp_path):
+    """Two sources of one output, an output that is a source, and files that are there: named before anything is written."""
+    sources, out = tmp_path / "sources", tmp_path / "out"
+    sources.mkdir()
+    (sources / "folder.glb").mkdir()  # is no source
+
+    def refused(*said, folder=out, options=()):
+        before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+        result = subprocess.run([sys.executable, ROOT / "examples/pipeline.py", sources, folder, *options], capture_output=True, text=True)
+        assert result.returncode == 2 and "Traceback" not in result.stderr, result.stderr
+        for text in said:
+            assert text in result.stderr
+        assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before and not (tmp_path / "out/report.csv").exists()
+
+    def given(*names):
+        for path in sources.iterdir():
+            if not path.is_dir():
+                path.unlink()
+        for name in names:
+            shutil.copy(ROOT / "examples/tentacle.glb", sources / name)
+
+    for names in (("dog.glb", "dog.vrm"), ("dog.glb", "dog.GLB"), ("Dog.glb", "dog.glb"), ("dog.bendy", "dog.glb")):
+        given(*names)
+        for options in ((), ("--overwrite",)):
+            refused(f"both {sources / sorted(names)[0]} and {sources / sorted(names)[1]} would be written to", options=options)
+    given("dog.bendy")
+    refused("would replace the source", folder=sources, options=("--overwrite",))
+    given("dog.glb", "cat.glb")
+    out.mkdir()
+    (out / "cat.bendy").symlink_to(sources / "dog.glb")
+    refused("cat.bendy would replace the source", options=("--overwrite",))
+    (out / "cat.bendy").unlink()
+    for name in ("dog.bendy", "sheet.png"):
+        (out / name).write_text("mine")
+        refused(f"{out / name} exists")
+        (out / name).unlink()
+    (out / "dog.bendy").write_text("mine")
+    (out / "cat.bendy").hardlink_to(out / "dog.bendy")
+    refused("would be written to", options=("--overwrite",))
+    (out / "cat.bendy").unlink()
+    (out / "cat.bendy").symlink_to(out / "dog.bendy")
+    refused("would be written to", options=("--overwrite",))
+    missing = subprocess.run([sys.executable, ROOT / "examples/pipeline.py", tmp_path / "missing", tmp_path / "new"], capture_output=True, text=True)
+    assert missing.returncode == 2 and "missing" in missing.stderr and "Traceback" not in missing.stderr
+    assert not (tmp_path / "new").exists()
+
+
 @pytest.mark.parametrize("page", ["docs/python.md", "docs/languages.md", "docs/retarget.md"])
 def test_the_documentations_blocks_run(page, tmp_path):
     blocks = re.findall(r"^```python\n(.*?)^```$", (ROOT / page).read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)

@@ -24,7 +24,12 @@ export function charactersOf(names: string[]): string[] {
 
 export async function readFiles(list: Iterable<File>): Promise<Record<string, Uint8Array>> {
   const files: Record<string, Uint8Array> = {};
-  for (const file of list) files[file.webkitRelativePath || file.name] = new Uint8Array(await file.arrayBuffer());
+  for (const file of list) {
+    let name = file.webkitRelativePath || file.name;
+    // Files of several folders may have one name: the second one is kept as "2/name".
+    for (let number = 2; files[name] !== undefined; ++number) name = `${number}/${file.webkitRelativePath || file.name}`;
+    files[name] = new Uint8Array(await file.arrayBuffer());
+  }
   return files;
 }
 
