@@ -158,6 +158,8 @@ def check_files(runner, folder, bendy, corpus):
         print("no corpus: the examples only")
     runner.run("round trips", tests / "check_round_trip.py", bendy.program, out, *files)
     runner.run("the block of docs/languages.md", tests / "check_languages.py", bendy.program, runner.source / "docs/languages.md", folder)
+    (folder / "kept").mkdir()
+    runner.run("what Blender does not know", tests / "check_kept.py", bendy.program, folder / "kept")
     (folder / "errors").mkdir()
     runner.run("import errors", tests / "check_import_errors.py", bendy.program, files[0], runner.source / "examples" / "tentacle.glb",
                folder / "errors")

@@ -7,6 +7,7 @@ bendy.ksy and bendy.hexpat among them; follows the links between pages; and asks
 there is one. Python 3, nothing else.
 """
 
+import ast
 import json
 import pathlib
 import re
@@ -440,6 +441,9 @@ def check_references(check):
     table = (check.source / 'format/extensions/include/bendy/extensions/references.def').read_text(encoding='utf-8')
     lines = re.findall(r'^BENDY_REFERENCE\("(\w+)", (\w+), "([^"]*)", (\w+), "([^"]*)", (\w+)\)$', table, re.MULTILINE)
     check.understood(lines and len(lines) == len(re.findall(r'^BENDY_REFERENCE', table, re.MULTILINE)), 'references.def')
+    addon = 'bindings/blender/bendy_rig/references.py'
+    copied = re.search(r'^REFERENCES = (\(.*?^\))$', (check.source / addon).read_text(encoding='utf-8'), re.MULTILINE | re.DOTALL)
+    check.same(addon, 'the table of references.def', ast.literal_eval(copied[1]) if copied else None, tuple(lines))
     code = {}
     for extension, host, path, thing, beside, gone in lines:
         number = THINGS[thing] % beside if '%s' in THINGS[thing] else THINGS[thing]

@@ -14,7 +14,9 @@ from .export_report import ExportReport
 from .chain_settings import chain_joints, is_helper
 from .ik_chains import chain_record, ik_constraints
 from .joint_limits import joint_record, says_a_limit
-from .kept_records import CLIP, CONSTRAINTS, CURVES, in_radians, kept, kept_chains, kept_markers, without_kept
+from .cameras_and_lights import return_camera, return_light
+from .kept_extras import returned_extras
+from .kept_records import CLIP, CONSTRAINTS, CURVES, DOCUMENTS, MARK, in_radians, kept, kept_chains, kept_markers
 from .roles import add_role
 from .shortcomings import all_curves, bone_notes, chain_notes, object_notes
 
@@ -68,7 +70,7 @@ class RigExtras:
     def gather_joint_hook(self, node, bone, *_):
         if not isinstance(bone, bpy.types.PoseBone) or node.name != bone.name:
             return                  # an added leaf
-        node.extras = without_kept(node.extras)
+        node.extras = marked_extras(node, bone)
         self.report.add_notes(bone.name, add_role(node, bone))
         self.rigs[bone.id_data.name] = bone.id_data
         self.joint_nodes.setdefault(bone.id_data.name, {}).setdefault(bone.name, []).append(node)
@@ -77,7 +79,7 @@ class RigExtras:
     def gather_node_hook(self, node, obj, *_):
         if not isinstance(obj, bpy.types.Object):
             return                  # a collection
-        node.extras = without_kept(node.extras)
+        node.extras = marked_extras(node, obj)
         self.curves += kept(obj, CURVES) or []
         limits = kept(obj, CONSTRAINTS)
         if limits is not None:
@@ -86,11 +88,30 @@ class RigExtras:
         if obj.type == 'ARMATURE':
             self.rigs[obj.name] = obj
             self.rig_nodes.setdefault(obj.name, node)
-        self.report.add_notes(obj.name, object_notes(obj) + add_role(node, obj))
+        lights = return_light(node, obj.data) if obj.type == 'LIGHT' else []
+        self.report.add_notes(obj.name, object_notes(obj) + add_role(node, obj) + lights)
 
     @kept_error
-    def gather_scene_hook(self, scene, _, *rest):
+    def gather_mesh_hook(self, mesh, made, *_):
+        mesh.extras = {**({'targetNames': mesh.extras['targetNames']} if 'targetNames' in (mesh.extras or {}) else {}),
+                       **(marked_extras(mesh, made) or {})} or None
+
+    @kept_error
+    def gather_material_hook(self, material, made, *_):
+        material.extras = marked_extras(material, made)
+
+    @kept_error
+    def gather_camera_hook(self, camera, data, *_):
+        camera.extras = returned_extras(camera.extras, data)
+        self.report.add_notes(data.name, return_camera(camera, data))
+
+    @kept_error
+    def gather_scene_hook(self, scene, made, *rest):
         """All nodes of the scene exist now, so it is known which joints are in the file."""
+        scene.extras = returned_extras(scene.extras, made)
+        if DOCUMENTS in made and not LastExport.must_succeed:
+            self.report.add_notes(made.name, [(False, 'what an import has kept (VRM and the like) is returned only by the entries of this add-on '
+                                                      'in File > Export')])
         axes = FileAxes(rest[-1].get('gltf_yup', True))
         for name, rig in self.rigs.items():
             nodes = self.joint_nodes.pop(name, {})
@@ -113,7 +134,7 @@ class RigExtras:
         if isinstance(action.get(CLIP), int):
             self.clips[id(animation)] = action[CLIP]
         markers = kept_markers(action, bpy.context.scene.render.fps)
-        animation.extras = without_kept(animation.extras)
+        animation.extras = returned_extras(animation.extras, action)
         if markers:
             animation.extras = {**(animation.extras or {}), 'markers': markers}
 
@@ -176,6 +197,14 @@ class RigExtras:
             number += 1
         self.chain_names.add(wanted)
         return wanted
+
+
+def marked_extras(thing, owner):
+    """For one of this add-on's exports, also with the number that the thing has in an imported file: returned_document.py."""
+    extras = returned_extras(thing.extras, owner)
+    if LastExport.must_succeed and isinstance(owner.get(MARK), str):
+        extras = {**(extras or {}), MARK: owner[MARK]}
+    return extras
 
 
 def stands_still(rig):

@@ -14,6 +14,7 @@ from .program import BendyError, find_program, run_program
 # A clip is its whole action, at every frame, and vertices keep all their influences.
 BENDY_OPTIONS = {'export_format': 'GLB', 'export_frame_range': False, 'export_optimize_animation_size': False,
                  'export_all_influences': True}
+KEPT = 'kept as JSON'               # the program warns of what it does not interpret: that is in the file
 PARTS = 3                           # of an export, for the progress bar: Blender's exporter takes most of the time
 
 
@@ -79,7 +80,7 @@ class EXPORT_SCENE_OT_bendy(bpy.types.Operator, ExportHelper, ExportOptions):
             manager.progress_end()
         told = [note.split(': ', 1)[1] for note in LastExport.report.notes]
         for text in warnings:
-            if not any(note in text for note in told):
+            if not any(note in text for note in (*told, KEPT)):
                 self.report({'WARNING'}, f'{self.bl_label}: {text.removeprefix(glb + ": ")}')
         self.tell(path)
         return {'FINISHED'}

@@ -7,10 +7,12 @@ import bpy
 from .export_hooks import LastExport
 from .kept_records import REST, kept
 from .known_hooks import hooks_in_preferences
+from .returned_document import return_documents
 from .written_file import count_records, read_document
 
 # The exporter's options that a rig requires; options unknown to this version of the exporter are skipped.
 ALWAYS = {'export_yup': True, 'export_extras': True, 'export_skins': True, 'export_force_sampling': True}
+WANTED = {'export_cameras': True, 'export_lights': True}     # otherwise their objects would go, too
 DIALOGUE = ('use_selection', 'use_visible', 'export_apply', 'export_def_bones', 'export_animations')   # what an operator offers
 
 
@@ -18,7 +20,8 @@ def exporter_options(operator, context, path, always):
     """The exporter's options: the scene's, the operator's, the script's, the required ones; later ones win."""
     known = exporter_properties()
     remembered = context.scene.get('glTF2ExportSettings')
-    options = {name: value for name, value in (remembered.to_dict() if remembered else {}).items() if name in known}
+    options = {**WANTED, **(remembered.to_dict() if remembered else {})}
+    options = {name: value for name, value in options.items() if name in known}
     for name in DIALOGUE:
         if operator.properties.is_property_set(name) or name not in options:
             options[name] = getattr(operator, name)
@@ -48,6 +51,9 @@ def run_exporter(context, path, options):
         with hooks_in_preferences(context), objects_at_rest():
             if 'FINISHED' not in bpy.ops.export_scene.gltf(**options):
                 raise RuntimeError(f'{path} was not written')
+        for note in return_documents(context.scene, path):
+            LastExport.report.add_notes('Kept', [note])
+            print(f'  Kept: {note[1]}')
     finally:
         LastExport.must_succeed = False
         if context.scene.frame_current != frame:

@@ -11,9 +11,11 @@ from . import import_rig
 from .chain_settings import HELPER, ROOT
 from .clip_curves import action_curves, at_rest, complete, fitting_rate, is_on_frame, put_on_frames, turn_evenly
 from .import_hooks import ImportedFile, LastImport
+from .kept_extras import keep_extras
 from .kept_records import CLIP, REST, keep
 from .known_hooks import hooks_in_preferences
 from .program import BendyError, run_program
+from .written_file import read_file, write_document
 
 # Bones get the joints' own axes, which limits and exports require, and the file's rest pose.
 IMPORTER_OPTIONS = {'bone_heuristic': 'BLENDER', 'guess_original_bind_pose': False, 'merge_vertices': False, 'disable_bone_shape': True}
@@ -28,6 +30,7 @@ class Imported:
     def __init__(self):
         self.warnings = []          # from the program, about what glTF cannot express
         self.notes = []             # (text, names): about what Blender cannot express
+        self.kept = []              # names of what Blender does not know and an export returns
         self.clips = 0
         self.limits = 0
         self.chains = 0
@@ -55,6 +58,7 @@ def import_file(context, path, enable_constraints, set_frame_rate, progress):
             finish_clips(context, file, imported)
             maker = import_rig.RigMaker(file, not enable_constraints)
             maker.make()
+            keep_unknown(context.scene, file, imported)
             imported.notes += [*maker.found.items(), *import_rig.keep_curves(file)]
             imported.limits, imported.chains = maker.count - maker.chains, maker.chains
     progress(1.0)
@@ -80,6 +84,9 @@ def nothing_left_behind(context):
                 bpy.data.batch_remove(made)
         for key in set(scene.keys()) - set(properties):
             del scene[key]
+        for key, value in properties.items():
+            if isinstance(value, str):
+                scene[key] = value
         scene.render.fps, scene.render.fps_base, scene.render.engine, scene.frame_start, scene.frame_end = render
         context.view_layer.objects.active = active
         for obj in selected:
@@ -92,7 +99,10 @@ def read_glb(context, glb, set_frame_rate):
     if 'gltf' not in dir(bpy.ops.import_scene):
         raise BendyError('the add-on "glTF 2.0 format" is not enabled')
     may_set = set_frame_rate and not any(action.users for action in bpy.data.actions)
-    file = ImportedFile()
+    document, binary = read_file(glb)
+    if 'extensionsRequired' in document:        # the file can be read without, or `bendy export` would have failed
+        write_document(glb, {key: value for key, value in document.items() if key != 'extensionsRequired'})
+    file = ImportedFile(glb, document, binary)
     file.set_rate = lambda times: set_rate(context.scene, times, may_set)
     known = bpy.ops.import_scene.gltf.get_rna_type().properties.keys()
     options = {name: value for name, value in IMPORTER_OPTIONS.items() if name in known}
@@ -136,6 +146,15 @@ def set_rate(scene, times, may_set):
         scene.frame_start, scene.frame_end = int(min(times) * scene.render.fps), max(1, round(max(times) * scene.render.fps))
 
 
+def keep_unknown(scene, file, imported):
+    """Keeps what Blender does not know for an export, and notes it."""
+    names = file.keeper.finish(scene, file.joints, file.meshes, file.materials)
+    if names:
+        imported.kept = names
+    if file.keeper.lost:
+        imported.notes.append(('an export does not return', file.keeper.lost))
+
+
 def note_scales(file, imported):
     """Blender's bones have no scale at rest: the importer put it into the pose, and clips have it as keys."""
     scaled = [bone or obj.name for obj, bone in file.joints
@@ -166,9 +185,13 @@ def finish_clips(context, file, imported):
             put_on_frames(action_curves(action))
             is_between |= not all(is_on_frame(point.co.x) for curve in action_curves(action) for point in curve.keyframe_points)
             turn_evenly(action)
-            for key, value in clip.extras.items():
-                if key != 'markers':
+            extras = {key: value for key, value in clip.extras.items() if key != 'markers'}
+            for key, value in extras.items():
+                try:
                     action[key] = value
+                except (TypeError, OverflowError, ValueError):
+                    action[key] = str(value)    # as the importer does it; the value is kept
+            keep_extras(action, extras)
         if is_between:
             between_frames.append(clip.track_name)
         import_rig.add_markers(clip, clip.extras.get('markers', []), rate)

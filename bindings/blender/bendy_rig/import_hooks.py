@@ -5,8 +5,12 @@
 import bpy
 
 from . import clip_curves
+from .cameras_and_lights import keep_cameras_and_lights
+from .kept_document import Keeper
+from .kept_extras import keep_extras
 from .roles import keep_role
 
+NOT_EXPORTED = {'KHR_materials_pbrSpecularGlossiness', 'KHR_materials_variants'}     # that Blender reads
 RIG_EXTRAS = ('rig_joint', 'rig_ik')        # of nodes: written by an earlier export, and replaced by the next one
 
 
@@ -20,7 +24,11 @@ class ImportedClip:
 class ImportedFile:
     """The objects that the importer made from a file written by `bendy export`."""
 
-    def __init__(self):
+    def __init__(self, path='', document=None, binary=b''):
+        self.path, self.document, self.binary = path, document, binary       # of the .glb file
+        self.keeper = None          # a Keeper, as soon as it is known what the importer knows
+        self.meshes = []            # (number in the file, mesh of Blender)
+        self.materials = []         # (number in the file, material of Blender)
         self.rig = {}               # the output of `bendy rig`
         self.joints = []            # joint -> (object, name of the bone in it, or None)
         self.names = []             # joint -> its name in the file
@@ -44,11 +52,16 @@ class ImportHooks:
     def gather_import_gltf_before_hook(self, gltf):
         if LastImport.file:
             guarded(take_extras, gltf, LastImport.file)
+            guarded(keep_document, gltf, LastImport.file)
             guarded(LastImport.file.set_rate, key_times(gltf))
 
     def gather_import_scene_after_nodes_hook(self, *arguments):
         if LastImport.file:
             guarded(note_joints, arguments[-1], LastImport.file)
+
+    def gather_import_material_after_hook(self, material, _vertex_color, made, gltf):
+        if LastImport.file:
+            guarded(note_material, gltf, LastImport.file, material, made)
 
     def gather_import_animation_channel_after_hook(self, animation, vnode, path, channel, *rest):
         if LastImport.file:
@@ -81,6 +94,35 @@ def take_extras(gltf, file):
             extras.pop(key, None)
 
 
+def keep_document(gltf, file):
+    managed = set(getattr(gltf, 'extensions_managed', ())) - NOT_EXPORTED
+    file.keeper = Keeper(file.path, file.document, file.binary, managed)
+
+
+def note_material(gltf, file, material, made):
+    number = next(number for number, each in enumerate(gltf.data.materials) if each is material)
+    file.materials.append((number, made))
+    keep_extras(made, material.extras)
+
+
+def note_extras(gltf, file):
+    """Of nodes, meshes and the scene, whose custom properties the importer has made."""
+    for (obj, bone), node in zip(file.joints, gltf.data.nodes or []):
+        if bone:
+            keep_extras(obj.pose.bones[bone], node.extras, obj.data.bones[bone])
+        else:
+            keep_extras(obj, node.extras)
+    for vnode in gltf.vnodes.values():
+        if getattr(vnode, 'mesh_node_idx', None) is None or vnode.blender_object.type != 'MESH':
+            continue
+        number = gltf.data.nodes[vnode.mesh_node_idx].mesh
+        file.meshes.append((number, vnode.blender_object.data))
+        extras = gltf.data.meshes[number].extras
+        keep_extras(vnode.blender_object.data, {key: value for key, value in (extras or {}).items() if key != 'targetNames'})
+    if gltf.data.scene is not None:
+        keep_extras(bpy.data.scenes[gltf.blender_scene], gltf.data.scenes[gltf.data.scene].extras)
+
+
 def note_joints(gltf, file):
     root = gltf.vnodes['root']
     if root.is_arma:
@@ -95,6 +137,8 @@ def note_joints(gltf, file):
         skinned = gltf.vnodes.get(f'{joint}.skinned')
         if skinned and not is_bone and not vnode.children and not moves(gltf, node):
             file.twins.append((joint, skinned.blender_object))
+    note_extras(gltf, file)
+    keep_cameras_and_lights(gltf, file.document)
     note_rest(file)
 
 

@@ -52,6 +52,9 @@ class IMPORT_SCENE_OT_bendy(bpy.types.Operator, ImportHelper):
                              *(f'  {text}: {", ".join(names)}' for text, names in imported.notes)]))
             notes = '; '.join(f'{text} ({shortened(names)})' for text, names in imported.notes)
             self.report({'WARNING'}, f'Bendy: not as in the file: {notes}')
+        if imported.kept:
+            self.report({'WARNING'}, f'Bendy: Blender does not know {shortened(imported.kept)}: kept in the scene, and returned by an export')
+            print(f'Bendy: kept for an export: {", ".join(imported.kept)}')
         muted = '' if self.enable_constraints or not (imported.limits or imported.chains) else \
             ', muted so that clips play as stored: Pose > Constraints > Enable Imported Constraints'
         self.report({'INFO'}, f'{os.path.basename(path)}: {count(imported.clips, "clip")}, {count(imported.limits, "limit")}, '

@@ -16,6 +16,10 @@ CLIP = 'bendy_clip'                 # of an action: the number of its clip, beca
 CURVES = 'bendy_curves'             # of an object: the list of the file's curves
 ROLE = 'bendy_role'                 # of a pose bone or an object: what it is in the body, 'leftHand' or 'tail:2'
 REST = 'bendy_rest'                 # of an object or shape keys that clips move: data path -> the values of the rest pose
+EXTRAS = 'bendy_extras'             # of what has extras: name -> [the file's value, the one that Blender exports, or null]
+RECORD = 'bendy_record'             # of a camera or a light: {"record": the file's, "settings": Blender's after the import}
+DOCUMENTS = 'bendy_documents'       # of a scene: what is kept of each file, by the file's key: kept_document.py
+MARK = 'bendy_mark'                 # of a pose bone, an object, a mesh or a material: its file's key and its number there, 'KEY:NUMBER'
 ANGLES = ('x', 'y', 'z', 'angle', 'preferred', 'soft_zone', 'pole_angle')       # degrees in a rig file, radians in extras
 
 
@@ -34,7 +38,7 @@ def kept(owner, key):
 def without_kept(extras):
     """The extras that the exporter made from an owner's custom properties, without those of this module."""
     left = {key: value for key, value in (extras or {}).items()
-            if key not in (CONSTRAINTS, CHAINS, MARKERS, CLIP, CURVES, ROLE, REST, chain_settings.HELPER)}
+            if key not in (CONSTRAINTS, CHAINS, MARKERS, CLIP, CURVES, ROLE, REST, EXTRAS, RECORD, DOCUMENTS, MARK, chain_settings.HELPER)}
     return left or None
 
 
