@@ -108,6 +108,7 @@ def check_records(runner, folder):
     runner.run("reports", tests / "check_reports.py", folder / "reports")
     runner.run("cases.json", tests / "make_cases.py", runner.source / tests / "cases.json", "check")
     runner.run("settings", tests / "check_settings.py")
+    runner.run("keys", tests / "check_thin_keys.py")
     check_zip(runner, folder)
 
 

@@ -109,6 +109,16 @@ class Said:
             said['VRM'] = self.vrm1(root['VRMC_vrm'], root['VRMC_springBone'])
         return said
 
+    def keys(self):
+        """Clip -> (joint, path) -> (interpolation, number of keys)."""
+        counts = {}
+        for clip in self.document['animations']:
+            for channel in clip['channels']:
+                sampler, target = clip['samplers'][channel['sampler']], channel['target']
+                counts.setdefault(clip['name'], {})[self.name('nodes', target['node']), target['path']] = (
+                    sampler.get('interpolation', 'LINEAR'), self.document['accessors'][sampler['input']]['count'])
+        return counts
+
 
 def same(what, wanted, found):
     if isinstance(wanted, dict) and isinstance(found, dict):
@@ -144,6 +154,10 @@ def check_return(bendy, path, folder):
     first, second = Said(document_of(bendy, path)), Said(document_of(bendy, out))
     same(os.path.basename(path), first.all(), second.all())
     check(len(first.document['textures']) == len(second.document['textures']), f'{second.document["textures"]}')
+    wanted = first.keys()
+    wanted['Swing'] = {key: ('LINEAR', second.keys()['Swing'][key][1]) for key in wanted['Swing']}     # cubic: sampled
+    same('keys', wanted, second.keys())
+    check(os.path.getsize(out) < 1.25 * os.path.getsize(path), f'{path}: {os.path.getsize(path)} bytes are now {os.path.getsize(out)}')
     # As glTF, read by the program.
     glb = os.path.join(folder, 'out.glb')
     check(bpy.ops.export_scene.bendy_rig(filepath=glb) == {'FINISHED'}, 'not exported as glTF')

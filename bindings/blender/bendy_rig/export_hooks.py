@@ -19,12 +19,14 @@ from .kept_extras import returned_extras
 from .kept_records import CLIP, CONSTRAINTS, CURVES, DOCUMENTS, MARK, in_radians, kept, kept_chains, kept_markers
 from .roles import add_role
 from .shortcomings import all_curves, bone_notes, chain_notes, object_notes
+from .thin_keys import restore_steps, thin_animations
 
 
 class LastExport:
     """Blender's exporter gives its extensions no reference to the caller, so the state is in the class."""
     report = ExportReport()
     must_succeed = False            # if true, errors stop the export before it writes a file
+    is_thinned = False              # if true, clips are written without the keys that nothing needs
 
 
 class RigError(Exception):
@@ -134,13 +136,17 @@ class RigExtras:
         if isinstance(action.get(CLIP), int):
             self.clips[id(animation)] = action[CLIP]
         markers = kept_markers(action, bpy.context.scene.render.fps)
+        if LastExport.is_thinned and rest[0].type == 'ARMATURE':
+            restore_steps(animation, action, rest[0])
         animation.extras = returned_extras(animation.extras, action)
         if markers:
             animation.extras = {**(animation.extras or {}), 'markers': markers}
 
     @kept_error
-    def gather_gltf_hook(self, _scene, _scenes, animations, *_):
+    def gather_gltf_hook(self, _scene, scenes, animations, *_):
         """Puts imported clips first, in the file's order; the exporter has sorted all clips by name."""
+        if LastExport.is_thinned:
+            thin_animations(animations, scenes)
         animations.sort(key=lambda animation: self.clips.get(id(animation), len(animations) + len(self.clips)))
 
     def add_joints(self, rig, axes, nodes):

@@ -70,7 +70,7 @@ class EXPORT_SCENE_OT_bendy(bpy.types.Operator, ExportHelper, ExportOptions):
             find_program()          # before the long part
             with tempfile.TemporaryDirectory(prefix='bendy') as folder:
                 glb = os.path.join(folder, 'scene.glb')
-                run_exporter(context, glb, exporter_options(self, context, glb, BENDY_OPTIONS))
+                run_exporter(context, glb, exporter_options(self, context, glb, BENDY_OPTIONS), is_thinned=True)
                 check_file(glb, LastExport.report)
                 manager.progress_update(PARTS - 1)
                 warnings = run_program('convert', glb, '--output', path, *(['--compact'] if self.compact else []))
@@ -102,7 +102,7 @@ class EXPORT_SCENE_OT_bendy_rig(bpy.types.Operator, ExportHelper, ExportOptions)
             path += '.glb'
         self.warn_of_enabled_chains(context)
         try:
-            run_exporter(context, path, exporter_options(self, context, path, {}))
+            run_exporter(context, path, exporter_options(self, context, path, {}), is_thinned=False)
             check_file(path, LastExport.report)
         except (RuntimeError, OSError, ValueError) as error:
             return self.fail(error)

@@ -43,10 +43,10 @@ def exporter_properties():
     return set(bpy.ops.export_scene.gltf.get_rna_type().properties.keys())
 
 
-def run_exporter(context, path, options):
+def run_exporter(context, path, options, is_thinned):
     """Writes the file, or raises RigError if the rig is not in it."""
     frame, influences = context.scene.frame_current, constraint_influences()
-    LastExport.must_succeed = True
+    LastExport.must_succeed, LastExport.is_thinned = True, is_thinned
     try:
         with hooks_in_preferences(context), objects_at_rest():
             if 'FINISHED' not in bpy.ops.export_scene.gltf(**options):
@@ -55,7 +55,7 @@ def run_exporter(context, path, options):
             LastExport.report.add_notes('Kept', [note])
             print(f'  Kept: {note[1]}')
     finally:
-        LastExport.must_succeed = False
+        LastExport.must_succeed = LastExport.is_thinned = False
         if context.scene.frame_current != frame:
             context.scene.frame_set(frame)
         for constraint, influence in influences:
