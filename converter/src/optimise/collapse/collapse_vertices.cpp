@@ -40,8 +40,11 @@ constexpr float kImpossible = std::numeric_limits<float>::infinity();
 constexpr std::size_t kMeasured = 3;
 /// Below this many points all edges are measured, and with so few left, also the new surface's distance from the old.
 constexpr std::uint32_t kSmall = 20'000;
-/// If more samples than this surround a point, half are dropped, but never the worst: keeps the work near linear.
+/// If more samples than this surround a point, half are dropped, but none that is half as far off as the worst: keeps
+/// the work near linear.
 constexpr std::size_t kMostHeld = 160;
+/// If there are this many, all but the worst may be dropped: they can be equally far off, as on a flat or round surface.
+constexpr std::size_t kFarTooMany = 4 * kMostHeld;
 /// Factor on the appearance error when a vertex leaves its side of a seam.
 constexpr double kSeamFactor = 8.0;
 constexpr float kQuadricFactor = 0.25f;  // of the mean squared distance from the planes, added to the largest distance
@@ -357,10 +360,12 @@ private:
                 held_.push_back(sample);
             }
         }
-        const float far = 0.25f * largest;
+        const bool are_far_too_many = held_.size() > kFarTooMany;
+        const float far = are_far_too_many ? largest : 0.25f * largest;
         for (std::size_t k = 0; k < held_.size(); ++k) {
             const Nearest closest = nearest(held_[k]);
-            if (held_.size() > kMostHeld && k % 2 == 1 && closest.distance_squared < far) continue;
+            const bool is_near = closest.distance_squared < far || (are_far_too_many && far == 0.0f);
+            if (held_.size() > kMostHeld && k % 2 == 1 && is_near) continue;
             samples_.hold(fan_.left()[closest.triangle].first, held_[k]);
         }
     }

@@ -119,6 +119,8 @@ private:
 };
 
 constexpr std::uint32_t kLeaf = 4;  // triangles
+/// Triangles that are tested for one distance: needles that overlap in a box would all be. Other surfaces need tens.
+constexpr std::size_t kMostTested = 512;
 
 float outside(const Box<glm::vec3>& box, const glm::vec3& place) {
     const glm::vec3 out = glm::max(glm::max(box.low - place, place - box.high), glm::vec3(0.0f));
@@ -246,7 +248,7 @@ float Original::distance_squared(std::size_t shape, const glm::vec3& place, floa
     std::size_t size = 0;
     open[size++] = {0.0f, 0};
     float best = distance_to(near);
-    while (size != 0 && best > enough) {
+    for (std::size_t tested = 0; size != 0 && best > enough && tested < kMostTested;) {
         const Open next = open[--size];
         if (next.distance >= best) continue;
         const Node& node = nodes_[next.node];
@@ -258,6 +260,7 @@ float Original::distance_squared(std::size_t shape, const glm::vec3& place, floa
             if (left.distance < best) open[size++] = left;
             continue;
         }
+        tested += node.count;
         for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
             const float distance = distance_to(order_[k]);
             if (!(distance < best)) continue;

@@ -59,7 +59,7 @@ public:
     Original(const Surface& surface, std::span<const std::vector<glm::vec3>> places);
 
     /// The squared distance of a place from the surface in a shape, if it is above `enough`; else any value up to
-    /// `enough`.
+    /// `enough`. Where very many triangles overlap, it may be too large: the work is bounded.
     /// \param near  a triangle of the surface to start with: the nearer, the faster; becomes the nearest one that was
     ///              tested
     [[nodiscard]] float distance_squared(std::size_t shape, const glm::vec3& place, float enough,

@@ -83,16 +83,56 @@ std::vector<std::uint32_t> sorted_if_worth(const Mesh& mesh, std::span<const std
     return bones.bones_of_eight(places) - bones.bones_of_eight(sorted) < kLeastSaved ? places : sorted;
 }
 
+/// Orders triangles so that neighbours are adjacent.
+class TriangleSorter {
+public:
+    /// \param vertices  of the mesh
+    explicit TriangleSorter(std::size_t vertices) : number_of_(vertices, kUnused) {}
+
+    void sort(std::span<std::uint32_t> indices) {
+        // meshoptimizer's work grows with the largest number, so the vertices are numbered by first use.
+        for (std::uint32_t& index : indices) {
+            std::uint32_t& number = number_of_[index];
+            if (number == kUnused) {
+                number = static_cast<std::uint32_t>(vertex_of_.size());
+                vertex_of_.push_back(index);
+                corners_.push_back(0);
+            }
+            index = number;
+            ++corners_[number];
+        }
+        // At each step it also looks at all triangles around the last vertices. Those at a crowded vertex keep their
+        // order, behind the others.
+        const auto is_crowded = [&](std::uint32_t number) { return corners_[number] > kMostCorners; };
+        for (std::size_t at = 0; at < indices.size(); at += 3) {
+            const auto triangle = indices.subspan(at, 3);
+            auto& kind = std::any_of(triangle.begin(), triangle.end(), is_crowded) ? crowded_ : sparse_;
+            kind.insert(kind.end(), triangle.begin(), triangle.end());
+        }
+        meshopt_optimizeVertexCacheStrip(indices.data(), sparse_.data(), sparse_.size(), vertex_of_.size());
+        std::copy(crowded_.begin(), crowded_.end(), indices.begin() + static_cast<std::ptrdiff_t>(sparse_.size()));
+        for (std::uint32_t& index : indices) index = vertex_of_[index];
+        for (const std::uint32_t vertex : vertex_of_) number_of_[vertex] = kUnused;
+        for (auto* list : {&vertex_of_, &corners_, &sparse_, &crowded_}) list->clear();
+    }
+
+private:
+    static constexpr std::uint32_t kMostCorners = 512;  // at a vertex: models have less than a hundred
+
+    std::vector<std::uint32_t> number_of_;           // by vertex
+    std::vector<std::uint32_t> vertex_of_, corners_;  // by number
+    std::vector<std::uint32_t> sparse_, crowded_;     // triangles
+};
+
 }  // namespace
 
 void order_for_codecs(Mesh& mesh, CompactMesh& compact, std::span<const std::uint32_t> levels) {
     const std::size_t vertices = mesh.positions.size();
     AssignedPolygons assigned = assign_polygons(mesh);
+    TriangleSorter sorter(vertices);
     for (const AssignedSubmesh& range : assigned.ranges) {
-        if (range.topology != Topology::triangles) continue;
-        const auto part = std::span(assigned.indices).subspan(range.first, range.count);
-        const std::vector<std::uint32_t> before(part.begin(), part.end());
-        meshopt_optimizeVertexCacheStrip(part.data(), before.data(), before.size(), vertices);
+        if (range.topology == Topology::triangles)
+            sorter.sort(std::span(assigned.indices).subspan(range.first, range.count));
     }
     // Vertices in order of first use; unused ones are kept, at the end.
     std::vector<std::uint32_t> place_of(vertices, kUnused);
