@@ -12,6 +12,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 system=${1:?usage: scripts/cross_dependencies.sh windows|aarch64|static|static-aarch64|fuzzers|web|web-plain|web-tools}
+[ -e "cmake/$system.cmake" ] || { echo "$0: unknown system $system" >&2; exit 2; }
 here=$PWD/build/cross
 root=$here/$system/libraries
 versions=$(cat "$0" cmake/"$system".cmake cmake/emscripten.cmake; dpkg-query -W libzstd-dev libmeshoptimizer-dev libdraco-dev libgtest-dev libglm-dev \
