@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace bendy::converter::import_bvh_test {
 namespace {
@@ -114,7 +117,8 @@ TEST(ImportBvh, FaultsNameTheirLine) {
     EXPECT_EQ(fault_of(changed(kArm, "JOINT", "ROOT")),
               "line 6: expected 'OFFSET', 'CHANNELS', 'JOINT' or '}', found 'ROOT'");
     EXPECT_EQ(fault_of(changed(kArm, "2 3", "2 3,5")), "line 4: expected a number, found '3,5'");
-    EXPECT_EQ(fault_of(changed(kArm, "2 3", "2 nan")), "line 4: the number 'nan' is implausibly large");
+    EXPECT_EQ(fault_of(changed(kArm, "2 3", "2 nan")), "line 4: expected a number, found 'nan'");
+    EXPECT_EQ(fault_of(changed(kArm, "2 3", "2 1e16")), "line 4: the number '1e16' is implausibly large");
     EXPECT_EQ(fault_of(changed(kArm, "2 3", "2 3 OFFSET")), "line 4: the joint has two OFFSETs");
     EXPECT_EQ(fault_of(changed(kArm, "CHANNELS 1", "CHANNELS 0 CHANNELS 1")), "line 6: the joint has CHANNELS twice");
     EXPECT_EQ(fault_of(changed(kArm, "CHANNELS 4", "CHANNELS 7")),
@@ -124,10 +128,142 @@ TEST(ImportBvh, FaultsNameTheirLine) {
     EXPECT_EQ(fault_of(changed(kArm, "Xrotation", "zROTATION")), "line 5: the joint has the channel 'zROTATION' twice");
     EXPECT_EQ(fault_of(kArm + "MOTION Frames: 1e9"),
               "line 8: number of frames: expected a whole number from 0 to 4194304");
-    EXPECT_EQ(fault_of(kArm + "MOTION Frames: 2 Frame Time: 0"),
+    EXPECT_EQ(fault_of(kArm + "MOTION Frames: 2 Frame Time: 1e-9"),
               "line 8: the time of a frame must be between 0.000001 s and 1,000,000 s");
-    EXPECT_EQ(fault_of(kArm + kMotion + "1 2 3 4 5\n1 2"), "line 12: expected a number, found the end of the file");
+    EXPECT_EQ(fault_of(kArm + "MOTION Frames: 2 Time: 1"), "line 8: expected 'frame time', found 'Time'");
     EXPECT_EQ(fault_of(kArm + kMotion + "1e15 2 3 4 5\n1 2 3 x"), "line 12: expected a number, found 'x'");
+}
+
+/// A file that is read, with its warnings.
+struct Read {
+    explicit Read(const std::string& text) {
+        auto result = import_bvh(text, "arm.bvh", {1.0}, report);
+        EXPECT_TRUE(result) << result.error().place << ": " << result.error().message;
+        if (result) scene = *std::move(result);
+        for (const Warning& warning : report.warnings())
+            warnings += warning.first_place + ": " + warning.message + " x" + std::to_string(warning.count) + '\n';
+    }
+    /// The X coordinates of the hand, which has one number of each frame.
+    [[nodiscard]] std::vector<float> hand() const {
+        std::vector<float> numbers;
+        const std::vector<float>& values = scene.clips.at(0).tracks.at(2).values;
+        for (std::size_t i = 0; i < values.size(); i += 3) numbers.push_back(values[i]);
+        return numbers;
+    }
+    Report report;
+    Scene scene;
+    std::string warnings;
+};
+
+const std::string kFrames = "1 2 3 4 5\n1 2 3 4 6\n";
+const std::string kSurplus = "a frame has more numbers than the joints have channels: the surplus is left out";
+
+TEST(ImportBvh, ALineIsAFrameIfThereAreAsManyAsTheFileSays) {
+    const Read all(kArm + kMotion + "1 2 3 4 5 99\n\n 1 2 3 4 6 99 98\n");
+    EXPECT_EQ(all.hand(), (std::vector{5.0f, 6.0f}));
+    EXPECT_EQ(all.warnings, "line 11: " + kSurplus + " x2\n");
+    const Read second(kArm + kMotion + "1 2 3 4 5\n1 2 3 4 6 # the end\n");
+    EXPECT_EQ(second.hand(), (std::vector{5.0f, 6.0f}));
+    EXPECT_EQ(second.warnings, "line 12: " + kSurplus + " x1\n");
+    const Read miscounted(kArm + changed(kMotion, "2", "7") + "1 2 3 4 5 99\n1 2 3 4 6 99\n1 2 3 4 7 99\n");
+    EXPECT_EQ(miscounted.hand(), (std::vector{5.0f, 6.0f, 7.0f}));
+    EXPECT_EQ(miscounted.warnings,
+              "line 11: " + kSurplus + " x3\n: the file says 7 frames and has 3, which are all read x1\n");
+}
+
+TEST(ImportBvh, AFrameMayTakeSeveralLinesAndALineSeveralFrames) {
+    for (const char* frames : {"1 2 3\n4 5\n1 2\n3 4 6\n", "1 2 3 4 5 1 2 3 4 6", "1 2 3 4 5 1 2\n3 4\n6"}) {
+        const Read read(kArm + kMotion + frames);
+        EXPECT_EQ(read.hand(), (std::vector{5.0f, 6.0f})) << frames;
+        EXPECT_EQ(read.warnings, "") << frames;
+    }
+    const Read miscounted(kArm + changed(kMotion, "2", "3") + "1 2 3\n4 5\n1 2 3\n4 6\n");
+    EXPECT_EQ(miscounted.hand(), (std::vector{5.0f, 6.0f}));
+    EXPECT_EQ(miscounted.warnings, ": the file says 3 frames and has 2, which are all read x1\n");
+}
+
+TEST(ImportBvh, AShortFrameIsReportedAtItsLine) {
+    const std::string is_short = "a frame is too short: expected 5 numbers, one for each channel, found ";
+    EXPECT_EQ(fault_of(kArm + kMotion + "1 2 3\n1 2 3 4 5\n"), "line 11: " + is_short + "3");
+    EXPECT_EQ(fault_of(kArm + kMotion + "1 2 3 4 5\n1 2"), "line 12: " + is_short + "2");
+    EXPECT_EQ(fault_of(kArm + kMotion + "1 2 3 4 5\n1 2\n1 2 3 4 5\n"), "line 12: " + is_short + "2");
+    EXPECT_EQ(fault_of(kArm + kMotion + "1 2 3\n4 5\n1 2 3\n4\n"), "line 13: " + is_short + "4");
+    std::string carriage = kArm + kMotion + "1 2 3 4 5\n1 2";
+    std::replace(carriage.begin(), carriage.end(), '\n', '\r');
+    EXPECT_EQ(fault_of(carriage), "line 12: " + is_short + "2");
+    EXPECT_EQ(fault_of(changed(carriage, "\r", "\r\n")), "line 12: " + is_short + "2");
+}
+
+TEST(ImportBvh, AFrameTimeThatIsNotAboveZeroIsThirtyASecond) {
+    for (const char* time : {"0", "-0.03", "nan", "0.0"}) {
+        const Read read(kArm + changed(kMotion, "0.5", time) + kFrames);
+        EXPECT_EQ(read.scene.clips.at(0).tracks.at(2).times, (std::vector{0.0f, 1.0f / 30.0f})) << time;
+        EXPECT_EQ(read.warnings, "line 10: the frame time is not above 0 s: 30 frames a second are assumed x1\n");
+    }
+    EXPECT_EQ(Read(kArm + "MOTION Frames: 1 Frame Time: 0\n1 2 3 4 5").warnings, "") << "one frame takes no time";
+}
+
+TEST(ImportBvh, WhatFollowsTheTextIsLeftOut) {
+    using std::string_literals::operator""s;
+    for (const std::string& end : {"\0\0\x1a\n"s, "\x1a\x1a"s, "\0\0\0"s, "\r\n\x1a"s}) {
+        const Read read(kArm + kMotion + kFrames + end);
+        EXPECT_EQ(read.hand(), (std::vector{5.0f, 6.0f}));
+        EXPECT_EQ(read.warnings, "");
+    }
+    const std::string before = kArm + kMotion + kFrames;
+    EXPECT_EQ(Read(before + "\x1aold").warnings,
+              "byte " + std::to_string(before.size()) + ": text after Ctrl-Z, which ends a text, is left out x1\n");
+    const Read noted(before + "The end, 2 of 2\n");
+    EXPECT_EQ(noted.hand(), (std::vector{5.0f, 6.0f}));
+    EXPECT_EQ(noted.warnings, "line 13: text after the last frame is left out x1\n");
+    EXPECT_EQ(fault_of(kArm + changed(kMotion, "2", "3") + kFrames + "The end\n"),
+              "line 13: expected a number, found 'The'");
+}
+
+TEST(ImportBvh, OtherSpellingsAreRead) {
+    EXPECT_EQ(Read(changed(kArm, "End Site", "EndSite") + kMotion + kFrames).scene.joints.at(2).name, "Hand end");
+    EXPECT_EQ(Read(kArm + changed(kMotion, "Frame Time", "FrameTime") + kFrames).hand().size(), 2u);
+}
+
+TEST(ImportBvh, NamesInOtherEncodingsAreSaid) {
+    using std::string_literals::operator""s;
+    const std::string is_latin = "line 2: a name is not UTF-8: its bytes are taken for Latin-1 x1\n";
+    const Read waist(changed(kArm, "Upper Arm\n", "\x8d\x98"));  // in Shift-JIS
+    EXPECT_EQ(waist.scene.joints.at(0).name, "\xc2\x8d\xc2\x98");
+    EXPECT_EQ(waist.warnings, is_latin);
+    const Read bone(changed(kArm, "Upper Arm", "\x83{\x81[\x83\x93"));  // whose second byte is a brace
+    EXPECT_EQ(bone.scene.joints.size(), 3u);
+    EXPECT_EQ(bone.warnings, is_latin);
+    const Read cafe(changed(kArm, "Upper Arm\n", "Caf\xe9"));  // in Latin-1
+    EXPECT_EQ(cafe.scene.joints.at(0).name, "Caf\xc3\xa9");
+    EXPECT_EQ(cafe.warnings, is_latin);
+    const Read wide(changed(kArm, "Upper Arm", "A\0r\0m\0"s));  // in UTF-16
+    EXPECT_EQ(wide.scene.joints.at(0).name, "Arm");
+    EXPECT_EQ(wide.warnings, "line 2: a name has NULs in it, as in UTF-16: they are left out x2\n");
+}
+
+TEST(ImportBvh, AFileInUtf16IsRead) {
+    const auto wide = [](const std::u16string& text, bool is_big) {
+        std::string bytes;
+        for (const char16_t unit : text) {
+            const auto low = static_cast<char>(unit & 0xff);
+            const auto high = static_cast<char>(unit >> 8);
+            bytes += is_big ? high : low;
+            bytes += is_big ? low : high;
+        }
+        return bytes;
+    };
+    const std::string plain = changed(kArm, "Upper Arm", "@") + kMotion + kFrames;
+    std::u16string text(plain.begin(), plain.end());
+    text.replace(text.find(u'@'), 1, u"\u8170\U0001f9b4\xd800");  // the last is half a pair
+    for (const bool is_big : {false, true}) {
+        for (const char16_t* mark : {u"\ufeff", u""}) {
+            const Read read(wide(mark + text, is_big) + (is_big ? "" : "\n"));
+            EXPECT_EQ(read.scene.joints.at(0).name, "\xe8\x85\xb0\xf0\x9f\xa6\xb4\xef\xbf\xbd");
+            EXPECT_EQ(read.hand(), (std::vector{5.0f, 6.0f}));
+            EXPECT_EQ(read.warnings, ": the file is text in UTF-16, and is read as such x1\n");
+        }
+    }
 }
 
 TEST(ImportBvh, AUnitIsALength) {

@@ -93,9 +93,9 @@ float read_float(std::span<const std::byte> file, std::size_t at) {
 }
 
 /// Reads text of at most `size` bytes, up to its first NUL, as UTF-8.
-std::string read_name(std::span<const std::byte> file, std::size_t at, std::size_t size) {
+std::string read_name(std::span<const std::byte> file, std::size_t at, std::size_t size, Report& report) {
     const std::string_view text(reinterpret_cast<const char*>(file.data()) + at, size);
-    return to_utf8(text.substr(0, text.find('\0')));
+    return to_utf8(text.substr(0, text.find('\0')), place_of(at), report);
 }
 
 /// Reads the header and checks that everything it describes lies in the file. Fails at `byte 40`.
@@ -199,7 +199,7 @@ private:
     void read_skins(Submesh& submesh) {
         for (std::uint32_t skin = 0; skin < header_.skins; ++skin) {
             const std::size_t at = header_.skins_at + skin * kSkinSize;
-            const std::string name = read_name(file_, at, kSkinSize);
+            const std::string name = read_name(file_, at, kSkinSize, report_);
             if (skin == 0 && !options_.texture.empty()) {
                 add_material(name, given_image());
             } else {
@@ -296,7 +296,7 @@ private:
             moved.push_back(places[vertex]);
             turned.push_back(normals[vertex]);
         }
-        std::string name = read_name(file_, at + 24, 16);
+        std::string name = read_name(file_, at + 24, 16, report_);
         if (frame == 0) {
             mesh.grid = grid;
             mesh.positions = std::move(moved);

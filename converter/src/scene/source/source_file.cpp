@@ -208,6 +208,11 @@ std::string to_utf8(std::string_view text) {
     return converted;
 }
 
+std::string to_utf8(std::string_view text, const std::string& place, Report& report) {
+    if (!is_utf8(text)) report.warn("a name is not UTF-8: its bytes are taken for Latin-1", place);
+    return to_utf8(text);
+}
+
 void move_links(Scene& scene, const std::filesystem::path& from, const std::filesystem::path& to,
                 const ReadableFolders& folders, Report& report) {
     const std::filesystem::path source = folder_of(from);

@@ -74,6 +74,8 @@ std::string uri_between(const std::filesystem::path& from, const std::filesystem
 
 /// Converts to UTF-8: text that is not UTF-8 is taken for Latin-1.
 std::string to_utf8(std::string_view text);
+/// As above, for a name: a warning tells of one that is not UTF-8.
+std::string to_utf8(std::string_view text, const std::string& place, Report& report);
 
 /// Rewrites links to images, which are relative to the folder of `from`, to be relative to that of `to`:
 /// percent-encoded, with forward slashes; as a file URI if no relative path exists (another drive). Between files of

@@ -148,7 +148,7 @@ DeclaredStreams read_vertex_declaration(ObjectReader& in, std::size_t vertices) 
 void begin(ObjectReader& in, Named& object) {
     object.place = in.place();
     object.identifier = in.head();
-    object.name = to_utf8(object.identifier);
+    object.name = to_utf8(object.identifier, object.place, in.report());
 }
 
 class MeshReader {
