@@ -220,6 +220,8 @@ Frame F:1-2.b { <22222222-2222-2222-2222-222222222222>
 TEST(ImportX, NamesThatAreNotUtf8AreTakenForLatin1) {
     const Read file = read_good(kHeader + "Frame K\xf6rper { }");
     EXPECT_EQ(file.scene.joints[0].name, "K\xc3\xb6rper");
+    EXPECT_EQ(warnings_of(file),
+              (std::vector<std::string>{"line 2, column 1: a name is not UTF-8: its bytes are taken for Latin-1"}));
 }
 
 TEST(ImportX, FaultsHaveTheirPlaces) {
@@ -244,7 +246,11 @@ TEST(ImportX, FaultsHaveTheirPlaces) {
     EXPECT_EQ(
         fault_of("Frame A { } AnimationSet { Animation { {A} AnimationKey { 2; 2; 5;3;0,0,0;;, 4;3;0,0,0;;; } } }"),
         "line 2, column 28: key 1: key times must increase");
-    EXPECT_EQ(fault_of("AnimTicksPerSecond { 0; }"), "line 2, column 22: there must be more than 0 ticks in a second");
+    for (const char* rate : {"0", "-30", "4294967266"}) {  // the last is -30 without a sign
+        EXPECT_EQ(fault_of("AnimTicksPerSecond { " + std::string(rate) + "; } Frame A { }"),
+                  "line 2, column 22: AnimTicksPerSecond must be above 0; --ticks-per-second sets the rate in place of "
+                  "the file's");
+    }
     EXPECT_EQ(fault_of("Frame A { \"open"), "line 2, column 11: a string is not ended");
     EXPECT_EQ(fault_of("Odd {{{"), "line 2, column 1: the file ends inside this data object");
 }
@@ -381,24 +387,54 @@ TEST(ImportX, ADeclDataOfAnotherSizeIsRefused) {
 }
 
 const std::string kWalk = R"(Frame A { } AnimationSet Walk { Animation { { A }
- AnimationKey { 2; 2; 0;3;0,0,0;;, 48;3;1,2,3;;; } } })";
+ AnimationKey { 2; 2; 0;3;0,0,0;;, 480;3;1,2,3;;; } } })";
 
 TEST(ImportX, AMissingRateIsNamedAndCanBeSet) {
     const Read assumed = read_good(kHeader + kWalk);
-    EXPECT_EQ(assumed.scene.clips.at(0).tracks.at(0).times.at(1), 0.01f);
+    EXPECT_EQ(assumed.scene.clips.at(0).tracks.at(0).times.at(1), 0.1f);
     EXPECT_EQ(warnings_of(assumed),
               (std::vector<std::string>{
                   ": AnimTicksPerSecond is missing: 4,800 ticks a second are assumed, as DirectX does, so that the "
-                  "last key is at 0.01 s; --ticks-per-second sets another rate"}));
-    for (const char* rate : {"", "AnimTicksPerSecond { 4800; }\n"}) {
+                  "last key is at 0.1 s; --ticks-per-second sets another rate"}));
+    for (const char* rate :
+         {"", "AnimTicksPerSecond { 4800; }\n", "AnimTicksPerSecond { 0; }\n", "AnimTicksPerSecond { -25; }\n"}) {
         Report report;
         const auto set = import_x(kHeader + rate + kWalk, "walk.x", {.ticks_per_second = 24.0}, report);
         ASSERT_TRUE(set);
-        EXPECT_EQ(set->clips.at(0).tracks.at(0).times.at(1), 2.0f);
+        EXPECT_EQ(set->clips.at(0).tracks.at(0).times.at(1), 20.0f);
         EXPECT_TRUE(report.warnings().empty());
     }
     EXPECT_TRUE(read_good(kHeader + "AnimTicksPerSecond { 4800; }" + kWalk).report.warnings().empty());
     EXPECT_TRUE(read_good(kHeader + kSquare + "}").report.warnings().empty());
+}
+
+TEST(ImportX, KeysThatWouldEndAtOnceAreFrames) {
+    std::string walk = kWalk;
+    walk.replace(walk.find("480"), 3, "479");
+    const Read counted = read_good(kHeader + walk);
+    EXPECT_EQ(counted.scene.clips.at(0).tracks.at(0).times.at(1), 479.0f / 30.0f);
+    EXPECT_EQ(warnings_of(counted),
+              (std::vector<std::string>{
+                  ": AnimTicksPerSecond is missing, and with DirectX's 4,800 ticks a second the last key would be at "
+                  "0.0998 s: keys are taken as frames, 30 a second; --ticks-per-second sets another rate"}));
+}
+
+/// A file whose frame A, of that matrix, turns and stays the same.
+std::string turning(const std::string& matrix) {
+    return kHeader + "Frame A { FrameTransformMatrix { " + matrix + ";; } }\n" +
+           "AnimTicksPerSecond { 30; } AnimationSet { Animation { { A } AnimationKey { 4; 2; 0;16;" + matrix +
+           ";;, 30;16;" + matrix + ";;; } } }";
+}
+
+TEST(ImportX, RotationsOfSixDigitsHaveNoShear) {
+    const Read turned =
+        read_good(turning("0.813019,0.511292,-0.278534,0.000000,-0.453759,0.856168,0.247141,0.000000,"
+                          "0.364833,-0.074543,0.928084,0.000000,0.000000,1.000000,0.000000,1.000000"));
+    EXPECT_EQ(turned.scene.joints.at(0).rest.shear, glm::vec3(0));
+    EXPECT_TRUE(turned.report.warnings().empty());
+    const Read sheared = read_good(turning("1,0,0,0, 0.001,1,0,0, 0,0,1,0, 0,1,0,1"));
+    EXPECT_EQ(sheared.scene.joints.at(0).rest.shear, glm::vec3(0.001f, 0, 0));
+    EXPECT_EQ(warnings_of(sheared).size(), 1u);
 }
 
 TEST(ImportX, WhatNamesNothingIsLeftOutAndNamed) {

@@ -126,22 +126,31 @@ double last_tick(const XFile& file) {
 /// Sets the length of a tick; reports the assumption if the file does not give one.
 /// \param stated  by the user; 0: nothing
 void set_tick(XFile& file, double stated, Report& report) {
-    const bool is_known = file.ticks_per_second != 0.0;
+    constexpr double kDirectX = 4800.0;
+    constexpr double kFrames = 30.0;
+    constexpr double kShortest = 0.1;  // seconds: no motion is shorter
     if (stated != 0.0) {
         file.ticks_per_second = stated;
-    } else if (!is_known) {
-        constexpr double kDirectX = 4800.0;
-        file.ticks_per_second = kDirectX;
-        const double last = last_tick(file);
-        if (last == 0.0) return;
-        std::array<char, 160> text{};
-        std::snprintf(
-            text.data(), text.size(),
-            "AnimTicksPerSecond is missing: 4,800 ticks a second are assumed, as DirectX does, so that the last "
-            "key is at %.3g s; --ticks-per-second sets another rate",
-            last / kDirectX);
-        report.warn(text.data(), {});
+        return;
     }
+    if (!file.ticks_place.empty()) {
+        if (file.ticks_per_second > 0.0) return;
+        fail(file.ticks_place,
+             "AnimTicksPerSecond must be above 0; --ticks-per-second sets the rate in place of the file's");
+    }
+    const double last = last_tick(file);
+    const bool are_frames = last / kDirectX < kShortest;
+    file.ticks_per_second = are_frames ? kFrames : kDirectX;
+    if (last == 0.0) return;
+    std::array<char, 240> text{};
+    std::snprintf(text.data(), text.size(),
+                  are_frames ? "AnimTicksPerSecond is missing, and with DirectX's 4,800 ticks a second the last key "
+                               "would be at %.3g s: keys are taken as frames, 30 a second; --ticks-per-second sets "
+                               "another rate"
+                             : "AnimTicksPerSecond is missing: 4,800 ticks a second are assumed, as DirectX does, so "
+                               "that the last key is at %.3g s; --ticks-per-second sets another rate",
+                  last / kDirectX);
+    report.warn(text.data(), {});
 }
 
 Scene import(std::string_view bytes, ReadableFolders folders, const XOptions& options, Report& report) {

@@ -114,7 +114,8 @@ struct XFile {
     std::vector<AnimationSet> sets;
     std::vector<Constraint> constraints;
     std::vector<IkChain> chains;
-    double ticks_per_second = 0.0;                                ///< 0: not given
+    double ticks_per_second = 0.0;                                ///< as it is written, also 0 and less
+    std::string ticks_place;                                      ///< empty: the file does not give them
     std::vector<std::pair<std::string, std::string>> clip_names;  ///< of animation sets: identifier, name
 };
 

@@ -153,7 +153,7 @@ AnimationSet read_animation_set(ObjectReader& in) {
     AnimationSet set;
     set.place = in.place();
     set.identifier = in.head();
-    set.name = to_utf8(set.identifier);
+    set.name = to_utf8(set.identifier, set.place, in.report());
     std::string_view type;
     while (in.inner(type, "AnimationSet")) {
         if (type == "Animation") {
@@ -228,8 +228,10 @@ private:
             out_.materials.push_back(read_material(in_));
         } else if (type == "AnimTicksPerSecond") {
             in_.head();
-            out_.ticks_per_second = in_.integer();
-            if (out_.ticks_per_second == 0.0) in_.refuse("there must be more than 0 ticks in a second");
+            out_.ticks_per_second = in_.exact_number();
+            // A binary file's integers have no sign.
+            if (out_.ticks_per_second >= 0x1p31) out_.ticks_per_second -= 0x1p32;
+            out_.ticks_place = in_.place();
             in_.end_of("AnimTicksPerSecond");
         } else if (type == "AnimationSet") {
             out_.sets.push_back(read_animation_set(in_));
@@ -251,7 +253,7 @@ private:
         Frame frame;
         frame.place = in_.place();
         frame.identifier = in_.head();
-        frame.name = to_utf8(frame.identifier);
+        frame.name = to_utf8(frame.identifier, frame.place, in_.report());
         frame.parent = open_.empty() ? kNone : open_.back();
         open_.push_back(static_cast<std::uint32_t>(out_.frames.size()));
         out_.frames.push_back(std::move(frame));
