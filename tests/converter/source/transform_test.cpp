@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
 #include <vector>
 
 namespace bendy::converter::transform_test {
@@ -53,6 +56,38 @@ TEST(GltfTransform, OrdinaryMatricesHaveNoShear) {
     EXPECT_NEAR(t.scale.z, 4, 1e-6);
     EXPECT_NEAR(t.rotation.z, std::sin(std::acos(-1.0) / 8), 1e-7);
     EXPECT_EQ(t.translation, glm::vec3(1, 2, 3));
+}
+
+/// The number in the nearest text of that `printf` format.
+double written(const char* format, double number) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), format, number);
+    return std::strtod(text.data(), nullptr);
+}
+
+TEST(GltfTransform, ShearThatRoundingToDigitsMakesIsNone) {
+    std::mt19937 random(57);
+    std::normal_distribution<float> normal;
+    const auto shear_of = [&](const char* format, const glm::vec3& scale, float shear) {
+        Transform t;
+        t.rotation = make_unit({normal(random), normal(random), normal(random), normal(random)}).value;
+        t.scale = scale;
+        t.shear = {shear, 0, 0};
+        auto matrix = compose(t);
+        for (double& number : matrix) number = written(format, number);
+        return glm::length(decompose(matrix).shear) / scale.x;
+    };
+    for (int i = 0; i < 1000; ++i) {
+        for (const char* format : {"%.6f", "%.6g", "%.5f", "%.4f", "%.5e"}) {
+            EXPECT_EQ(shear_of(format, glm::vec3(1), 0.0f), 0.0f) << format;
+            EXPECT_EQ(shear_of(format, {2.54f, 30.0f, 100.0f}, 0.0f), 0.0f) << format;
+            EXPECT_NEAR(shear_of(format, glm::vec3(1), 0.002f), 0.002f, 2e-4) << format;
+        }
+        EXPECT_EQ(shear_of("%.6f", glm::vec3(0.01f), 0.0f), 0.0f);
+        EXPECT_EQ(shear_of("%.6g", glm::vec3(0.01f), 0.0f), 0.0f);
+        EXPECT_NEAR(shear_of("%.9f", glm::vec3(1), 1e-5f), 1e-5f, 5e-7) << "more digits are not rounded";
+    }
+    EXPECT_EQ(decompose(matrix_of({1, 0.00001, 0, 0, 1, 0, 0, 0, 1})).shear.x, 0.00001f) << "its last digit";
 }
 
 TEST(GltfTransform, IdentityStaysExact) {

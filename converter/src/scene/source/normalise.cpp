@@ -67,6 +67,52 @@ std::array<double, 4> to_quaternion(const Vector& x, const Vector& y, const Vect
     return {(z[0] + x[2]) / k, (z[1] + y[2]) / k, k / 4.0, (x[1] - y[0]) / k};
 }
 
+/// A unit in the sixth digit of a number; 0 for tiny and huge ones.
+double sixth_digit(double number) {
+    constexpr double kLargest = 1e12;
+    const double size = std::abs(number);
+    if (!(size >= 1.0 / kLargest && size <= kLargest)) return 0.0;
+    double above = 1.0;
+    while (above < size) above *= 10.0;
+    while (above > 10.0 * size) above /= 10.0;
+    return above * 1e-6;
+}
+
+/// How a matrix was rounded when it was written as text: to four to six digits after the point, to six digits in all,
+/// as most exporters do, or not. Uses only products, quotients and rounding: the same bits on every machine.
+class TextRounding {
+public:
+    /// \param noise  elements below this say nothing
+    TextRounding(const std::array<Vector, 3>& axes, double noise) {
+        for (const double unit : {1e-6, 1e-5, 1e-4}) {
+            if (all(axes, noise, [&](double) { return unit; })) half_unit_ = unit / 2.0;
+        }
+        has_six_digits_ = all(axes, noise, sixth_digit);
+    }
+
+    /// The most by which an element may differ from the number that was written.
+    [[nodiscard]] double of(double element) const {
+        return std::max(half_unit_, has_six_digits_ ? sixth_digit(element) / 2.0 : 0.0);
+    }
+
+private:
+    /// True if all elements are floats nearest to a multiple of their unit.
+    template <class Unit>
+    static bool all(const std::array<Vector, 3>& axes, double noise, const Unit& unit_of) {
+        return std::all_of(axes.begin(), axes.end(), [&](const Vector& axis) {
+            return std::all_of(axis.begin(), axis.end(), [&](double element) {
+                if (std::abs(element) <= noise) return true;
+                const double unit = unit_of(element);
+                return unit > 0.0 &&
+                       static_cast<float>(std::round(element / unit) * unit) == static_cast<float>(element);
+            });
+        });
+    }
+
+    double half_unit_ = 0.0;
+    bool has_six_digits_ = false;
+};
+
 /// Allowed deviation of a sum of weights from 1, per weight in the sum: float rounding of decoded or stored weights.
 /// The same as the Khronos validator's.
 constexpr double kRounding = 2e-7;
@@ -165,10 +211,23 @@ Transform decompose(const std::array<double, 16>& m) {
     transform.rotation = make_unit(to_quaternion(x, y, z)).value;
     transform.scale = {static_cast<float>(dot(x, a)), static_cast<float>(has_y ? dot(y, b) : 0.0),
                        static_cast<float>(has_z ? dot(z, c) : 0.0)};
-    // Shear below the matrix's float rounding is noise.
+    // Shear that rounding may make, to floats or to the digits of a text, is noise. It is at most, of the column `of`
+    // along the axis of the column `along`, what each element's rounding does to their product.
     const double noise = largest * 0x1p-22;
-    const auto shear = [&](double value) { return std::abs(value) <= noise ? 0.0f : static_cast<float>(value); };
-    transform.shear = {shear(dot(x, b)), shear(dot(x, c)), shear(dot(y, c))};
+    const TextRounding rounding({a, b, c}, noise);
+    const auto shear = [&](const Vector& axis, const Vector& along, double size, const Vector& of) {
+        constexpr double kBelow = 0.95;  // so that shear of a whole unit stays
+        double most = noise;
+        if (size > 0.0) {
+            double text = 0.0;
+            for (std::size_t i = 0; i < 3; ++i)
+                text += std::abs(axis[i]) * rounding.of(of[i]) + std::abs(of[i]) / size * rounding.of(along[i]);
+            most += kBelow * text;
+        }
+        const double value = dot(axis, of);
+        return std::abs(value) <= most ? 0.0f : static_cast<float>(value);
+    };
+    transform.shear = {shear(x, a, length(a), b), shear(x, a, length(a), c), shear(y, b, length(b_rest), c)};
     return transform;
 }
 
