@@ -365,6 +365,55 @@ TEST(ExportGltf, MoreThanFourInfluencesTakeSeveralSets) {
     EXPECT_EQ(again.weights, mesh.weights);
 }
 
+/// The Khronos validator's rule, as it adds: floats, component by component, of all sets.
+bool is_valid_sum(const std::vector<float>& weights) {
+    volatile float sum = 0.0f;
+    double tolerance = 0.0;
+    for (std::size_t component = 0; component < 4; ++component) {
+        for (std::size_t i = component; i < weights.size(); i += 4) {
+            sum = sum + weights[i];
+            if (weights[i] != 0.0f) tolerance += 2e-7;
+        }
+    }
+    return std::abs(double{sum} - 1.0) <= tolerance;
+}
+
+TEST(ExportGltf, WeightsSumToOneInFloats) {
+    for (const std::vector<float>& weights :
+         {std::vector<float>{0.2f, 0.2f, 0.2f, 0.2f, 0.199999f},
+          {0.500005f, 0.5f},
+          {0.1f, 0.599991f, 0.3f},
+          {0.25f, 0.25f, 0.125f, 0.125f, 0.125f, 0.0625f, 0.03125f, 0.0312406f, 0.0f}}) {
+        Scene scene = triangle();
+        Mesh& mesh = scene.meshes[0];
+        mesh.influences = static_cast<std::uint32_t>(weights.size());
+        for (std::uint32_t i = 0; i < mesh.influences; ++i) {
+            if (i > 0) scene.joints.push_back(scene.joints[0]);
+            if (i > 0) scene.joints[i].parent = 0;
+            mesh.palette.joints.push_back(i);
+            mesh.palette.inverse_bind.emplace_back(1.0f);
+        }
+        std::vector<float> even(weights.size(), 0.0f);
+        even[0] = 1.0f;
+        for (const auto& own : {weights, even, weights}) {
+            mesh.weights.insert(mesh.weights.end(), own.begin(), own.end());
+            for (std::uint32_t i = 0; i < mesh.influences; ++i) mesh.bones.push_back(own[i] != 0.0f ? i : 0);
+        }
+        ASSERT_FALSE(is_valid_sum(weights));
+        const Exported exported = export_scene(scene);
+        EXPECT_TRUE(exported.warns("added as 32-bit floats, are not 1 as glTF demands"));
+        const Mesh again = import_again(exported.asset).meshes[0];
+        const auto n = static_cast<std::ptrdiff_t>(again.influences);
+        for (std::ptrdiff_t v = 0; v < 3; ++v) {
+            const std::vector<float> own(again.weights.begin() + v * n, again.weights.begin() + (v + 1) * n);
+            EXPECT_TRUE(is_valid_sum(own));
+            int changed = 0;
+            for (std::size_t i = 0; i < own.size(); ++i) changed += own[i] != (v == 1 ? even : weights)[i] ? 1 : 0;
+            EXPECT_EQ(changed, v == 1 ? 0 : 1) << "one weight takes the difference";
+        }
+    }
+}
+
 TEST(ExportGltf, ATargetBesideNamedOnesGetsAName) {
     const auto written = [](const std::vector<std::string>& names, const std::string& extras, std::uint64_t unnamed) {
         Scene scene = triangle();

@@ -56,9 +56,40 @@ std::uint64_t make_unit(std::vector<glm::vec4>& tangents) {
     return changed;
 }
 
-constexpr std::uint32_t kSetSize = 4;         // influences per glTF attribute
+constexpr std::size_t kSetSize = 4;           // influences per glTF attribute
 constexpr std::uint32_t kMostMissing = 8;     // missing sets of texture coordinates or colours
 constexpr std::size_t kMostJoints = 0x10000;  // addressable by a 16-bit index
+
+/// Whether the sum of a vertex's weights is 1 to the Khronos validator: it adds floats, the first weight of each set,
+/// then the second ones, and allows 2e-7 for each weight that is not zero.
+bool sums_to_one(std::span<const float> weights) {
+    constexpr double kRounding = 2e-7;
+    float sum = 0.0f;
+    double tolerance = 0.0;
+    for (std::size_t first = 0; first < std::min(kSetSize, weights.size()); ++first) {
+        for (std::size_t i = first; i < weights.size(); i += kSetSize) {
+            sum += weights[i];
+            tolerance += weights[i] != 0.0f ? kRounding : 0.0;
+        }
+    }
+    return std::abs(double{sum} - 1.0) <= tolerance;
+}
+
+/// Makes the sums of all vertices, of `n` weights each, 1 to the validator. Changes the largest weight of those that
+/// are not; the others keep their bits. \return of how many vertices
+std::uint64_t make_sums_one(std::vector<float>& weights, std::size_t n) {
+    std::uint64_t changed = 0;
+    for (std::size_t at = 0; at < weights.size(); at += n) {
+        const std::span<float> own(weights.data() + at, n);
+        if (sums_to_one(own)) continue;
+        double others = 0.0;
+        float& largest = *std::max_element(own.begin(), own.end());
+        for (const float& weight : own) others += &weight == &largest ? 0.0 : double{weight};
+        largest = static_cast<float>(std::max(0.0, 1.0 - others));
+        ++changed;
+    }
+    return changed;
+}
 
 template <class Vector>
 std::span<const float> floats_of(const std::vector<Vector>& vectors) {
@@ -291,7 +322,7 @@ private:
             attributes[is_the_authors ? stream.name : '_' + stream.name] =
                 buffer_.add_floats(stream.values, n, kVertices, false);
         }
-        if (mesh.influences != 0) write_influences(mesh, attributes);
+        if (mesh.influences != 0) write_influences(mesh, at("meshes", number), attributes);
         return attributes;
     }
 
@@ -322,9 +353,16 @@ private:
     }
 
     /// Writes four influences per attribute; the last is padded with zero weights.
-    void write_influences(const Mesh& mesh, Json& attributes) {
+    void write_influences(const Mesh& mesh, const std::string& place, Json& attributes) {
         const std::size_t n = mesh.influences;
         const std::size_t vertices = mesh.positions.size();
+        std::vector<float> sums_made(mesh.weights);
+        if (const std::uint64_t changed = make_sums_one(sums_made, n); changed != 0) {
+            report_.warn(
+                "the weights of a vertex, added as 32-bit floats, are not 1 as glTF demands: its largest weight is "
+                "changed by the difference",
+                place, changed);
+        }
         std::vector<std::uint32_t> bones;
         std::vector<float> weights;
         for (std::size_t set = 0; set * kSetSize < n; ++set) {
@@ -335,7 +373,7 @@ private:
             for (std::size_t v = 0; v < vertices; ++v) {
                 for (std::size_t i = 0; i < count; ++i) {
                     bones[v * kSetSize + i] = mesh.bones[v * n + first + i];
-                    weights[v * kSetSize + i] = mesh.weights[v * n + first + i];
+                    weights[v * kSetSize + i] = sums_made[v * n + first + i];
                 }
             }
             const std::string suffix = '_' + std::to_string(set);
