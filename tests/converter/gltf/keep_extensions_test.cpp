@@ -116,11 +116,22 @@ TEST(GltfKeptExtensions, WhatIsNoObjectIsLeftOut) {
 }
 
 TEST(GltfKeptExtensions, AFileMayDemandThem) {
-    for (const char* name : {"VRM", "VRMC_vrm", "VRMC_node_constraint", "AGI_articulations"}) {
+    for (const char* name :
+         {"VRM", "VRMC_vrm", "VRMC_node_constraint", "VRMC_springBone_extended_collider", "AGI_articulations"}) {
         Gltf gltf;
         gltf.add_node(Json::object());
         gltf.json["extensionsRequired"] = {name};
         EXPECT_TRUE(gltf.import().result.has_value()) << name;
+    }
+    for (const char* name : {"VRMC_materials_mtoon", "VRMC_materials_hdr_emissiveMultiplier"}) {
+        Gltf gltf;
+        gltf.add_node(Json::object());
+        gltf.json["materials"] = {{{"extensions", {{name, {{"specVersion", "1.0"}}}}}}};
+        gltf.json["extensionsUsed"] = gltf.json["extensionsRequired"] = {name};
+        const Import import = gltf.import();
+        ASSERT_TRUE(import.result.has_value()) << name;
+        EXPECT_NE(import->materials.at(0).extensions.find("specVersion"), std::string::npos) << name;
+        EXPECT_EQ(import.warned(name), 1u) << "as where it is only used";
     }
 }
 

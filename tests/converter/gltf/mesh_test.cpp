@@ -368,6 +368,30 @@ TEST(GltfMesh, NamesOfTargetsInPrimitives) {
     EXPECT_TRUE(import.report.warnings().empty());
 }
 
+/// As exporters of VRM 0 wrote them.
+TEST(GltfMesh, NamesOfTargetsInTargets) {
+    Gltf gltf = make_morph();
+    Json& targets = gltf.primitive()["targets"];
+    targets[0]["extra"] = {{"name", "Smile"}};
+    targets[1]["extras"] = {{"name", "Blink"}};
+    const Import import = gltf.import();
+    ASSERT_EQ(import->meshes.at(0).targets.size(), 2u);
+    EXPECT_EQ(import->meshes.at(0).targets[0].name, "Smile");
+    EXPECT_EQ(import->meshes.at(0).targets[0].positions.size(), 3u);
+    EXPECT_EQ(import->meshes.at(0).targets[1].name, "Blink");
+    EXPECT_TRUE(import.report.warnings().empty());
+    targets[0]["extra"] = {{"name", "Smile"}, {"group", 2}};
+    targets[1] = {{"name", "Wink"}, {"extras", 5.5}, {"extensions", {{"ACME", 1}}}};
+    const Import more = gltf.import();
+    ASSERT_FALSE(more.result.has_value());
+    EXPECT_EQ(more.result.error().place, "meshes[0].primitives[0].targets[1].extras") << "a number is an accessor's";
+    targets[1].erase("extras");
+    const Import rest = gltf.import();
+    EXPECT_EQ(rest->meshes.at(0).targets.at(0).name, "Smile");
+    EXPECT_EQ(rest->meshes.at(0).targets.at(1).name, "Wink");
+    EXPECT_EQ(rest.warned("what a morph target has beside its accessors and its name is left out"), 2u);
+}
+
 TEST(GltfMesh, NamesOfTargetsThatDifferAreSaid) {
     Gltf gltf = make_morph();
     gltf.json["meshes"][0]["primitives"].push_back(gltf.primitive());

@@ -312,6 +312,9 @@ TEST(ImportMd2, ClipsFollowTheFramesNames) {
     EXPECT_EQ(runs({"pain101", "pain102", "pain201", "pain202"}), "pain1:0+2 pain2:2+2 ");
     EXPECT_EQ(runs({"attack8", "attack9", "attack10"}), "attack:0+3 ");
     EXPECT_EQ(runs({"walk099", "walk100", "walk101"}), "walk:0+3 ");
+    EXPECT_EQ(runs({"crattack1", "crattak2", "CRattack3", "attak1", "attack2"}), "crattack:0+3 attak:3+2 ");
+    EXPECT_EQ(runs({"crattak8", "crattack10"}), "crattak:0+1 crattack:1+1 ");
+    EXPECT_EQ(runs({"crdeth1", "crdeath2"}), "crdeth:0+2 ");
     EXPECT_EQ(runs({"flip", "flip", "1", "2"}), "flip:0+1 flip:1+1 :2+2 ");
     EXPECT_EQ(runs({"a99999999999999999999999", "a1"}), "a999999999999999999999:0+1 a:1+1 ");
 }
@@ -334,8 +337,8 @@ TEST(ImportMd2, DeathsOfPlayersAreToldApartByTheirFrames) {
 }
 
 TEST(ImportMd2, WhatIsDoneOnceDoesNotRepeat) {
-    for (const char* once : {"attack", "pain2", "jump", "flip", "salute", "taunt", "wave", "point", "crattak", "crpain",
-                             "crdeth", "death1", "Death3", "deathfall"})
+    for (const char* once : {"attack", "pain2", "jump", "flip", "salute", "taunt", "wave", "point", "crattak",
+                             "crattack", "attak2", "crpain", "crdeth", "death1", "Death3", "deathfall"})
         EXPECT_FALSE(md2::is_repeated(once)) << once;
     for (const char* again : {"stand", "run", "crstnd", "crwalk", "glide", "walk", "", "cr"})
         EXPECT_TRUE(md2::is_repeated(again)) << again;

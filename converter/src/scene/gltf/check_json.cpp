@@ -435,17 +435,64 @@ void check_channels(const Json& root) {
     }
 }
 
+/// Takes what is no accessor out of a morph target, which has only these: exporters of VRM 0 wrote its name there, as
+/// `"extra": {"name": ...}`. \return the name, or empty
+std::string take_target_name(Json& target, const std::string& place, Report& report) {
+    std::string name;
+    for (const char* member : {"extra", "extras", "extensions", "name"}) {
+        const auto found = target.find(member);
+        if (found == target.end() || found->is_number()) continue;
+        const Json* said = found->is_object()                   ? find(*found, "name")
+                           : std::string_view(member) == "name" ? &*found
+                                                                : nullptr;
+        const bool is_name = said != nullptr && said->is_string() && name.empty();
+        if (is_name) name = said->get<std::string>();
+        if (!is_name || found->size() > 1) {
+            report.warn("what a morph target has beside its accessors and its name is left out", place + '.' + member);
+        }
+        target.erase(found);
+    }
+    return name;
+}
+
+/// Moves names of morph targets to where the specification has them, in the extras of their primitive.
+void move_target_names(Json& root, Report& report) {
+    const auto each = [](Json& owner, const char* name, const auto& work) {
+        const auto list = owner.is_object() ? owner.find(name) : owner.end();
+        if (list == owner.end() || !list->is_array()) return;
+        for (std::size_t i = 0; i < list->size(); ++i) work((*list)[i], i);
+    };
+    each(root, "meshes", [&](Json& mesh, std::size_t m) {
+        each(mesh, "primitives", [&](Json& primitive, std::size_t p) {
+            Json names = Json::array();
+            bool has_names = false;
+            each(primitive, "targets", [&](Json& target, std::size_t t) {
+                const std::string place = at("meshes", m) + '.' + at("primitives", p) + '.' + at("targets", t);
+                names.push_back(target.is_object() ? take_target_name(target, place, report) : std::string());
+                has_names = has_names || names.back() != "";
+            });
+            if (!has_names) return;
+            Json& extras = primitive["extras"];
+            if (extras.is_null()) extras = Json::object();
+            if (extras.is_object() && !extras.contains("targetNames")) extras["targetNames"] = std::move(names);
+        });
+    });
+}
+
 }  // namespace
 
 Json parse_json(std::string_view text, bool with_instances, Report& report) {
+    constexpr std::size_t kShownBytes = 16;
     const std::size_t first = text.find_first_not_of("\xef\xbb\xbf \t\r\n");
     if (first != std::string_view::npos && text[first] != '{' && text[first] != '[') {
-        fail({}, "not a glTF file: it starts with neither 'glTF' (GLB) nor a JSON object");
+        fail({}, "not a glTF file: it starts with neither 'glTF' (GLB) nor a JSON object, but with " +
+                     quote(text.substr(first, kShownBytes)));
     }
     Json root = parse_json_text<Json>(text, report);
     if (!root.is_object()) fail({}, "the JSON root must be an object, not " + shown(root));
     check_asset(root);
     check_required_extensions(root, with_instances);
+    move_target_names(root, report);
     Checker checker(root);
     for (const Rule& rule : kRules) checker.check(rule);
     check_channels(root);

@@ -51,6 +51,8 @@ constexpr std::array kKnown = {
     Known{"KHR_materials_specular", Use::material},
     Known{"KHR_materials_transmission", Use::material},
     Known{"KHR_materials_volume", Use::material},
+    Known{"VRMC_materials_hdr_emissiveMultiplier", Use::material},
+    Known{"VRMC_materials_mtoon", Use::material},
     Known{"AGI_articulations", Use::ignored},
     Known{"AGI_stk_metadata", Use::ignored},
     Known{kIkChains, Use::ignored},
@@ -62,6 +64,7 @@ constexpr std::array kKnown = {
     Known{"VRM", Use::ignored},
     Known{"VRMC_node_constraint", Use::ignored},
     Known{"VRMC_springBone", Use::ignored},
+    Known{"VRMC_springBone_extended_collider", Use::ignored},
     Known{"VRMC_vrm", Use::ignored},
     Known{kVrmAnimation, Use::ignored},
 };

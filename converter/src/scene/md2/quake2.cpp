@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <system_error>
+#include <utility>
 
 namespace bendy::converter::md2 {
 namespace {
@@ -81,6 +82,18 @@ std::vector<glm::vec3> quake_normals() {
 
 namespace {
 
+/// The name in lower case, with one spelling of what modellers spell in two: `crattack` becomes `crattak`.
+std::string spelled(std::string_view name) {
+    std::string spelled(name);
+    std::transform(spelled.begin(), spelled.end(), spelled.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    for (const auto& [word, as] :
+         {std::pair<std::string_view, std::string_view>("attack", "attak"), {"death", "deth"}}) {
+        if (const std::size_t at = spelled.find(word); at != std::string::npos) spelled.replace(at, word.size(), as);
+    }
+    return spelled;
+}
+
 constexpr std::size_t kCountingDigits = 2;
 constexpr std::uint64_t kNoNumber = std::numeric_limits<std::uint64_t>::max();
 
@@ -88,6 +101,7 @@ struct FrameName {
     std::string_view letters;
     std::string_view digits;
     std::uint64_t number = 0;  ///< or kNoNumber
+    std::string spelled;       ///< the letters, for comparisons
 };
 
 FrameName take_apart(std::string_view name) {
@@ -99,6 +113,7 @@ FrameName take_apart(std::string_view name) {
     const char* const end = parts.digits.data() + parts.digits.size();
     const auto read = from_chars(parts.digits.data(), end, parts.number);
     if (read.ec != std::errc()) parts.number = kNoNumber;
+    parts.spelled = spelled(parts.letters);
     return parts;
 }
 
@@ -124,7 +139,7 @@ void add_ways(const FrameRun& run, std::vector<FrameRun>& runs) {
     std::vector<FrameRun> ways;
     std::size_t next = run.first;
     for (const auto& [name, first, count] : kSeveralWays) {
-        if (first != next || name.substr(0, name.size() - 1) != run.name) continue;
+        if (first != next || spelled(name.substr(0, name.size() - 1)) != spelled(run.name)) continue;
         ways.push_back({std::string(name), first, count});
         next += count;
     }
@@ -138,12 +153,12 @@ std::vector<FrameRun> find_runs(std::span<const std::string> names) {
     std::vector<FrameRun> runs;
     FrameName before;
     for (std::size_t frame = 0; frame < names.size(); ++frame) {
-        const FrameName name = take_apart(names[frame]);
-        const bool goes_on = !runs.empty() && name.letters == before.letters && name.number != kNoNumber &&
+        FrameName name = take_apart(names[frame]);
+        const bool goes_on = !runs.empty() && name.spelled == before.spelled && name.number != kNoNumber &&
                              before.number != kNoNumber && name.number == before.number + 1;
         if (!goes_on) runs.push_back({name_of(name), frame, 0});
         ++runs.back().count;
-        before = name;
+        before = std::move(name);
     }
     if (names.size() != kStandardFrames) return runs;
     std::vector<FrameRun> ways;
@@ -152,11 +167,9 @@ std::vector<FrameRun> find_runs(std::span<const std::string> names) {
 }
 
 bool is_repeated(std::string_view name) {
-    constexpr std::array<std::string_view, 11> kOnce{"attack", "attak", "pain",  "jump",  "flip", "salute",
-                                                     "taunt",  "wave",  "point", "death", "deth"};
-    std::string lower(name);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    constexpr std::array<std::string_view, 9> kOnce{"attak", "pain", "jump",  "flip", "salute",
+                                                    "taunt", "wave", "point", "deth"};
+    const std::string lower = spelled(name);
     std::string_view deed = lower;
     if (deed.starts_with("cr")) deed.remove_prefix(2);  // crouched
     return std::none_of(kOnce.begin(), kOnce.end(), [&](std::string_view once) { return deed.starts_with(once); });

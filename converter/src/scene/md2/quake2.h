@@ -23,8 +23,9 @@ struct FrameRun {
     std::size_t count = 0;
 };
 
-/// Splits frames into runs by their names: letters and a number that increases by one. Of three digits and more, the
-/// last two count the frames, and the others belong to the name: pain101, pain102 are `pain1`, stand001, stand002
+/// Splits frames into runs by their names: letters and a number that increases by one. Upper and lower case are the
+/// same, and so are `attack` and `attak`, `death` and `deth`; the first frame names the run. Of three digits and more,
+/// the last two count the frames, and the others belong to the name: pain101, pain102 are `pain1`, stand001, stand002
 /// `stand`. In a model with the standard frames of Quake II's players, consecutively numbered pains and deaths (death1
 /// to death20) are split where each variant begins there.
 std::vector<FrameRun> find_runs(std::span<const std::string> names);
