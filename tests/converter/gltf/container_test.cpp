@@ -69,7 +69,8 @@ TEST(GltfContainer, ErrorsSayWhatIsWrong) {
     EXPECT_EQ(message_of(make_glb({{"ACME", Bytes(4)}})), "GLB chunk 0 at byte 12: the first chunk is not JSON");
     EXPECT_EQ(message_of(make_glb({})), "GLB without a JSON chunk");
     EXPECT_EQ(message_of(bytes_of("\x89PNG\r\n\x1a\n")),
-              "not a glTF file: it starts with neither 'glTF' (GLB) nor a JSON object");
+              "not a glTF file: it starts with neither 'glTF' (GLB) nor a JSON object, but with "
+              "'\x89PNG\\x0d\\x0a\\x1a\\x0a'");
 }
 
 TEST(GltfContainer, FilesThatCannotBeReadAreRefused) {

@@ -45,6 +45,26 @@ TEST_F(Named, AFileIsReadOnceAndCountedOnce) {
     EXPECT_EQ(left(budget_), after);
 }
 
+TEST_F(Named, WhatStandsInForAFileIsNamed) {
+    std::ofstream(folder_.path() / "skin.png") << "version https://git-lfs.github.com/spec/v1\noid sha256:aa\nsize 1\n";
+    std::ofstream(folder_.path() / "page.bin") << "<!DOCTYPE html>\n";
+    const std::string is_pointer =
+        "file 'skin.png' is a Git LFS pointer: fetch the file that it stands for: git lfs pull";
+    try {
+        files_.read("page.bin", "here");
+        ADD_FAILURE() << "it was read";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.error.place, "here");
+        EXPECT_TRUE(failure.error.message.starts_with("file 'page.bin' is an HTML page: ")) << failure.error.message;
+    }
+    Image image;
+    image.uri = "skin.png";
+    files_.embed(image, "images[0]");
+    EXPECT_EQ(image.uri, "skin.png");
+    ASSERT_EQ(report_.warnings().size(), 1u);
+    EXPECT_EQ(report_.warnings()[0].message, "image could not be read (" + is_pointer + ')');
+}
+
 TEST_F(Named, WhatIsReadMayGrow) {
     const std::uint64_t before = left(budget_);
     const auto some = files_.read("ten", "here", 4);

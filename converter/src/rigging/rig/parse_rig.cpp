@@ -3,6 +3,7 @@
 #include "scene/failure.h"
 #include "scene/source/source_file.h"
 
+#include <bendy/converter/source_format.h>
 #include <bendy/format/constraint.h>
 #include <bendy/format/diagnostics.h>
 
@@ -252,6 +253,7 @@ Rig parse_rig(std::string_view text, Report& report) {
 
 Rig read_rig(const std::filesystem::path& file, Report& report) {
     const auto bytes = read_file(file, {}, kMostBytes);
+    if (std::string why = why_not_a_rig(bytes); !why.empty()) fail({}, std::move(why));
     Rig rig = parse_rig({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, report);
     rig.source = file.filename().string() + ": ";
     return rig;

@@ -1,11 +1,14 @@
 #include "scene/source/importers.h"
 
+#include "scene/source/image_bytes.h"
+
 #include <bendy/converter/import.h>
 #include <bendy/format/byte_reader.h>
 
 #include <algorithm>
 #include <cassert>
 #include <fstream>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -121,6 +124,7 @@ constexpr std::string_view kBuildWithX = "build it with BENDY_X_FILES=ON";
 constexpr std::string_view kBuildWithMd2 = "build it with BENDY_MD2=ON";
 constexpr std::string_view kBuildWithBvh = "build it with BENDY_BVH=ON";
 constexpr std::string_view kArchive = "unpack it, and convert the model that is in it";
+constexpr std::string_view kDownload = "download the model itself; on a page that shows a file, that is the raw file";
 
 constexpr FileKind kFbxFile{"an FBX file", std::nullopt, kFbx};
 constexpr FileKind kUsdFile{"a USD file", std::nullopt, kUsd};
@@ -130,6 +134,17 @@ constexpr FileKind kPlyFile{"a PLY file", std::nullopt, kMeshOnly};
 constexpr FileKind kZipFile{"a ZIP archive", std::nullopt, kArchive};
 constexpr FileKind kXFile{"a DirectX X-file", std::nullopt, kBuildWithX};
 constexpr FileKind kMd2File{"a Quake II model", std::nullopt, kBuildWithMd2};
+constexpr FileKind kObjFile{"an OBJ file", std::nullopt, kMeshOnly};
+constexpr FileKind kStlFile{"an STL file", std::nullopt, kMeshOnly};
+constexpr FileKind kPicture{"a picture", std::nullopt, "give the model that uses it, which takes its pictures along"};
+constexpr FileKind kHtmlPage{"an HTML page", std::nullopt, kDownload};
+constexpr FileKind kLfsPointer{"a Git LFS pointer", std::nullopt, "fetch the file that it stands for: git lfs pull"};
+constexpr FileKind kAnnexPointer{"a git-annex pointer", std::nullopt,
+                                 "fetch the file that it stands for: git annex get"};
+constexpr FileKind kEmptyFile{"an empty file", std::nullopt, "copy or download it again"};
+constexpr FileKind kXmlFile{"an XML file", std::nullopt, kOtherTool};
+constexpr FileKind kRigFile{"a rig file", std::nullopt, "give it with a model: bendy convert MODEL --rig FILE"};
+constexpr FileKind kJsonFile{"a JSON file without a member of glTF", std::nullopt, kOtherTool};
 
 constexpr std::size_t kKindBytes = 4096;
 
@@ -138,8 +153,22 @@ struct Recognised {
     FileKind kind;
 };
 
-/// Signatures of formats without an importer, at least in some builds. USDZ is a ZIP archive: its suffix takes
-/// precedence.
+/// What is there in place of a file that was not fetched.
+constexpr std::array kStandIns{
+    Recognised{"version https://git-lfs.github.com/spec/", kLfsPointer},
+    Recognised{"version https://hawser.github.com/spec/", kLfsPointer},  // as Git LFS was called
+    Recognised{"/annex/objects/", kAnnexPointer},
+    Recognised{"404: Not Found", {"a server's error message", std::nullopt, kDownload}},
+};
+
+/// Beginnings of texts in angle brackets, in lower case, after XML's own; the first one that occurs says what it is.
+constexpr std::array kMarkups{
+    Recognised{"<collada", kColladaFile}, Recognised{"<svg", kPicture},     Recognised{"<!doctype html", kHtmlPage},
+    Recognised{"<html", kHtmlPage},       Recognised{"<head", kHtmlPage},   Recognised{"<body", kHtmlPage},
+    Recognised{"<title", kHtmlPage},      Recognised{"<script", kHtmlPage},
+};
+
+/// Signatures of formats without an importer, at least in some builds.
 constexpr std::array kBeginnings{
     Recognised{"xof ", kXFile},
     Recognised{"IDP2", kMd2File},
@@ -155,6 +184,23 @@ constexpr std::array kBeginnings{
     Recognised{"HIERARCHY", {"a BVH file", std::nullopt, kBuildWithBvh}},
     Recognised{"ply\n", kPlyFile},
     Recognised{"ply\r", kPlyFile},
+    Recognised{"#?RADIANCE", kPicture},
+    Recognised{"8BPS", kPicture},
+    Recognised{{"II*\0", 4}, kPicture},
+    Recognised{{"MM\0*", 4}, kPicture},
+    Recognised{"v/1\1", kPicture},  // OpenEXR
+};
+
+/// Signatures of archives. Formats that are archives, such as USDZ, are recognised by their suffixes before.
+constexpr std::array kArchives{
+    Recognised{"PK\3\4", kZipFile},
+    Recognised{"PK\5\6", kZipFile},
+    Recognised{"\x1f\x8b", {"a gzip archive", std::nullopt, kArchive}},
+    Recognised{"7z\xbc\xaf\x27\x1c", {"a 7z archive", std::nullopt, kArchive}},
+    Recognised{"Rar!\x1a\x07", {"a RAR archive", std::nullopt, kArchive}},
+    Recognised{{"\xfd\x37zXZ\0", 6}, {"an xz archive", std::nullopt, kArchive}},
+    Recognised{"BZh", {"a bzip2 archive", std::nullopt, kArchive}},
+    Recognised{"\x28\xb5\x2f\xfd", {"a Zstandard archive", std::nullopt, kArchive}},
 };
 
 /// Suffixes of formats that have no signature, or may be compressed.
@@ -166,8 +212,8 @@ constexpr std::array kEndings{
     Recognised{".usdz", kUsdFile},
     Recognised{".blend", kBlendFile},
     Recognised{".dae", kColladaFile},
-    Recognised{".obj", {"an OBJ file", std::nullopt, kMeshOnly}},
-    Recognised{".stl", {"an STL file", std::nullopt, kMeshOnly}},
+    Recognised{".obj", kObjFile},
+    Recognised{".stl", kStlFile},
     Recognised{".ply", kPlyFile},
     Recognised{".3ds", {"a 3DS file", std::nullopt, kOtherTool}},
     Recognised{".max", {"a 3ds Max file", std::nullopt, kOtherTool}},
@@ -179,13 +225,6 @@ constexpr std::array kEndings{
 
 FileKind kind_of(const Importer& importer) {
     return {importer.name, importer.format, {}};
-}
-
-std::string small_extension(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return extension;
 }
 
 /// The text without a byte order mark and leading white space.
@@ -206,20 +245,109 @@ const Importer* find_by_suffix(const std::string& extension) {
     return nullptr;
 }
 
-std::optional<FileKind> find_kind_of_text(std::string_view text, const std::string& extension) {
-    if (text.starts_with('<') && text.find("<COLLADA") != std::string_view::npos) return kColladaFile;
-    if (!text.starts_with('{')) return std::nullopt;
-    if (text.find("\"bendy_text\"") != std::string_view::npos)
-        return FileKind{"the text of a bendy file", std::nullopt, {}};
-    if (extension == ".gltf" || text.find("\"asset\"") != std::string_view::npos)
-        return kind_of(importer_of(SourceFormat::gltf));
+template <std::size_t N>
+std::optional<FileKind> find_by_beginning(const std::array<Recognised, N>& table, std::string_view text) {
+    const auto found =
+        std::find_if(table.begin(), table.end(), [&](const Recognised& each) { return text.starts_with(each.by); });
+    return found == table.end() ? std::nullopt : std::optional(found->kind);
+}
+
+std::string in_lower_case(std::string_view text) {
+    std::string lower(text);
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return lower;
+}
+
+std::string small_extension(const std::filesystem::path& file) {
+    return in_lower_case(file.extension().string());
+}
+
+FileKind find_kind_of_markup(std::string_view text) {
+    const std::string lower = in_lower_case(text);
+    std::size_t first = std::string::npos;
+    FileKind kind = kXmlFile;
+    for (const Recognised& each : kMarkups) {
+        const std::size_t at = lower.find(each.by);
+        if (at >= first) continue;
+        first = at;
+        kind = each.kind;
+    }
+    return kind;
+}
+
+/// The names of the members of a JSON text's root, as far as the text goes.
+std::set<std::string_view> root_members(std::string_view text) {
+    std::set<std::string_view> names;
+    std::size_t depth = 0;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (text[at] == '{' || text[at] == '[') ++depth;
+        if ((text[at] == '}' || text[at] == ']') && --depth == 0) break;
+        if (text[at] != '"') continue;
+        const std::size_t begin = ++at;
+        while (at < text.size() && text[at] != '"') at += text[at] == '\\' ? 2 : 1;
+        if (at >= text.size()) break;
+        const std::size_t colon = text.find_first_not_of(" \t\r\n", at + 1);
+        if (depth == 1 && colon != std::string_view::npos && text[colon] == ':')
+            names.insert(text.substr(begin, at - begin));
+    }
+    return names;
+}
+
+FileKind find_kind_of_json(std::string_view text, const std::string& extension) {
+    constexpr std::array<std::string_view, 19> kOfGltf{"asset",
+                                                       "accessors",
+                                                       "animations",
+                                                       "buffers",
+                                                       "bufferViews",
+                                                       "cameras",
+                                                       "extensions",
+                                                       "extras",
+                                                       "images",
+                                                       "materials",
+                                                       "meshes",
+                                                       "nodes",
+                                                       "samplers",
+                                                       "scene",
+                                                       "scenes",
+                                                       "skins",
+                                                       "extensionsUsed",
+                                                       "textures",
+                                                       "extensionsRequired"};
+    const std::set<std::string_view> members = root_members(text);
+    const auto has = [&](std::string_view name) { return members.count(name) != 0; };
+    if (has("bendy_rig")) return kRigFile;
+    if (has("bendy_text") || has("HEAD")) return {"the text of a bendy file", std::nullopt, {}};
+    const bool is_gltf = extension == ".gltf" || std::any_of(kOfGltf.begin(), kOfGltf.end(), has);
+    return is_gltf ? kind_of(importer_of(SourceFormat::gltf)) : kJsonFile;
+}
+
+/// Recognises texts of meshes, which have no signature, by their lines.
+std::optional<FileKind> find_kind_of_mesh_text(std::string_view text) {
+    const auto has_line = [&](std::string_view beginning) {
+        return text.starts_with(beginning) || text.find('\n' + std::string(beginning)) != std::string_view::npos;
+    };
+    const bool is_comment = text.starts_with('#');
+    constexpr std::array<std::string_view, 5> kOfObj{"mtllib ", "v ", "o ", "g ", "vn "};
+    const bool begins = std::any_of(kOfObj.begin(), kOfObj.end(), [&](auto word) { return text.starts_with(word); });
+    if ((is_comment || begins) && has_line("v ")) return kObjFile;
+    if (text.starts_with("solid") && text.find("facet") != std::string_view::npos) return kStlFile;
     return std::nullopt;
 }
 
-std::string read_beginning(const std::filesystem::path& file) {
+std::optional<FileKind> find_kind_of_text(std::string_view text, const std::string& extension) {
+    if (text.starts_with('<')) return find_kind_of_markup(text);
+    if (text.starts_with('{')) return find_kind_of_json(text, extension);
+    if (text.starts_with('[')) return kJsonFile;
+    return find_kind_of_mesh_text(text);
+}
+
+/// Nothing if the file cannot be read.
+std::optional<std::string> read_beginning(const std::filesystem::path& file) {
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored)) return {};
+    if (!std::filesystem::is_regular_file(file, ignored)) return std::nullopt;
     std::ifstream stream(file, std::ios::binary);
+    if (!stream) return std::nullopt;
     std::string text(kKindBytes, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
@@ -228,26 +356,36 @@ std::string read_beginning(const std::filesystem::path& file) {
 
 }  // namespace
 
+std::optional<FileKind> find_stand_in(Bytes bytes) {
+    const std::string_view text = trimmed(as_text(bytes).substr(0, kKindBytes));
+    if (const auto kind = find_by_beginning(kStandIns, text)) return kind;
+    if (text.starts_with('<') && find_kind_of_markup(text).name == kHtmlPage.name) return kHtmlPage;
+    return std::nullopt;
+}
+
 std::optional<FileKind> find_file_kind(Bytes bytes, const std::filesystem::path& name) {
+    if (bytes.empty()) return kEmptyFile;
     const std::string_view text = as_text(bytes).substr(0, kKindBytes);
     for (const Importer& importer : importers()) {
         if (!importer.signature.empty() && text.starts_with(importer.signature)) return kind_of(importer);
     }
-    for (const Recognised& each : kBeginnings) {
-        if (text.starts_with(each.by)) return each.kind;
-    }
+    if (const auto kind = find_stand_in(bytes)) return kind;
+    if (const auto kind = find_by_beginning(kBeginnings, text)) return kind;
+    if (!media_type_of(bytes).empty()) return kPicture;
     const std::string extension = small_extension(name);
     if (const auto kind = find_kind_of_text(trimmed(text), extension)) return kind;
     for (const Recognised& each : kEndings) {
         if (extension == each.by) return each.kind;
     }
-    if (text.starts_with("PK\3\4")) return kZipFile;
-    return std::nullopt;
+    for (const ImageKind& image : image_kinds()) {
+        if (extension == image.suffix) return kPicture;
+    }
+    return find_by_beginning(kArchives, text);
 }
 
 std::optional<FileKind> find_file_kind(const std::filesystem::path& file) {
-    const std::string beginning = read_beginning(file);
-    return find_file_kind(as_byte_span(beginning), file);
+    const auto beginning = read_beginning(file);
+    return beginning ? find_file_kind(as_byte_span(*beginning), file) : std::nullopt;
 }
 
 SourceFormat find_source_format(Bytes bytes, const std::filesystem::path& name) {
@@ -321,6 +459,13 @@ std::string why_not_convertible(const std::filesystem::path& file) {
 std::string why_not_convertible(Bytes bytes, const std::filesystem::path& name) {
     const auto kind = find_file_kind(bytes, name);
     return kind && !kind->format ? why_not_bendy(*kind, name) : std::string();
+}
+
+std::string why_not_a_rig(Bytes bytes) {
+    const auto kind = find_file_kind(bytes, {});
+    if (!kind || kind->name == kRigFile.name || kind->name == kJsonFile.name) return {};
+    const std::string is_this = "is " + std::string(kind->name) + ", not a rig file";
+    return find_stand_in(bytes) ? is_this + ": " + std::string(kind->way_in) : is_this;
 }
 
 }  // namespace bendy::converter

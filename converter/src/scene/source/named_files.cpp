@@ -3,6 +3,8 @@
 #include "scene/failure.h"
 #include "scene/source/image_bytes.h"
 
+#include <bendy/converter/source_format.h>
+
 #include <algorithm>
 #include <system_error>
 #include <utility>
@@ -55,6 +57,10 @@ std::span<const std::byte> NamedFiles::read_found(const std::filesystem::path& f
     if (is_new) {
         try {
             contents.bytes = read_file(file, place, limit);
+            if (const auto kind = find_stand_in(contents.bytes)) {
+                fail(place, "file " + quote(file.filename().string()) + " is " + std::string(kind->name) + ": " +
+                                std::string(kind->way_in));
+            }
         } catch (...) {
             known_.erase(known);
             throw;
