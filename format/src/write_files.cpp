@@ -5,21 +5,25 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <mutex>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace bendy {
 
-/// Slots are reused but never freed, so that a signal handler can walk the list at any time.
+/// Slots are reused but never freed, so that a signal handler can walk the list of all of them at any time.
 struct TemporaryName::Slot {
     std::atomic<const std::filesystem::path::value_type*> name{nullptr};  ///< null: free
     Slot* next = nullptr;
+    Slot* next_free = nullptr;  ///< not for signal handlers
 };
 
 namespace {
 
 std::atomic<TemporaryName::Slot*> slots{nullptr};
+std::mutex free_slots_lock;  ///< never taken by a signal handler
+TemporaryName::Slot* free_slots = nullptr;
 std::atomic<int> replacing{0};       ///< threads that are replacing files together
 std::atomic<bool> is_ending{false};  ///< from now on nothing must be replaced
 static_assert(std::atomic<const void*>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
@@ -28,10 +32,15 @@ static_assert(std::atomic<const void*>::is_always_lock_free && std::atomic<int>:
 /// Replaces a name that remove_temporary_files() has taken.
 constexpr std::filesystem::path::value_type kTaken = 0;
 
+/// Takes the same time however many names are listed.
 TemporaryName::Slot* slot_for(const std::filesystem::path::value_type* name) {
-    for (TemporaryName::Slot* slot = slots; slot != nullptr; slot = slot->next) {
-        const std::filesystem::path::value_type* free = nullptr;
-        if (slot->name.compare_exchange_strong(free, name)) return slot;
+    {
+        const std::lock_guard lock(free_slots_lock);
+        if (TemporaryName::Slot* const slot = free_slots; slot != nullptr) {
+            free_slots = slot->next_free;
+            slot->name = name;
+            return slot;
+        }
     }
     auto added = std::make_unique<TemporaryName::Slot>();
     added->name = name;
@@ -79,7 +88,7 @@ void put_back(StagedFile& file) {
     }
 }
 
-Result<void, WriteFailure> replace_all(std::vector<StagedFile>& files) {
+Result<void, WriteFailure> replace_all(std::deque<StagedFile>& files) {
     const Replacing now;
     if (!now.may_begin()) return WriteFailure{0, cannot_write(EINTR)};
     const auto together =
@@ -110,7 +119,13 @@ TemporaryName::TemporaryName(std::filesystem::path path)
 TemporaryName::~TemporaryName() {
     const std::filesystem::path::value_type* name = path_->c_str();
     // A signal handler that has taken the name may still be reading it, so it stays until the program ends.
-    if (!slot_->name.compare_exchange_strong(name, nullptr)) static_cast<void>(path_.release());
+    if (!slot_->name.compare_exchange_strong(name, nullptr)) {
+        static_cast<void>(path_.release());
+        return;
+    }
+    const std::lock_guard lock(free_slots_lock);
+    slot_->next_free = free_slots;
+    free_slots = slot_;
 }
 
 StagedFile::~StagedFile() {
@@ -123,13 +138,29 @@ std::unique_ptr<TemporaryName> name_beside(const std::filesystem::path& target) 
     return std::make_unique<TemporaryName>(target.parent_path() / name);
 }
 
+struct FileSet::Files {
+    std::deque<StagedFile> staged;
+};
+
+FileSet::FileSet() : files_(std::make_unique<Files>()) {}
+FileSet::~FileSet() = default;
+
+Result<void> FileSet::write(const FileContents& file) {
+    return stage(file, files_->staged.emplace_back());
+}
+
+Result<void, WriteFailure> FileSet::replace() {
+    auto replaced = replace_all(files_->staged);
+    files_->staged.clear();
+    return replaced;
+}
+
 Result<void, WriteFailure> write_files(std::span<const FileContents> files) {
-    std::vector<StagedFile> staged(files.size());
-    Result<void, WriteFailure> written;
-    for (std::size_t k = 0; written && k < files.size(); ++k) {
-        if (const auto one = stage(files[k], staged[k]); !one) written = WriteFailure{k, one.error()};
+    FileSet set;
+    for (std::size_t k = 0; k < files.size(); ++k) {
+        if (const auto one = set.write(files[k]); !one) return WriteFailure{k, one.error()};
     }
-    return written ? replace_all(staged) : written;
+    return set.replace();
 }
 
 Result<void> write_file(const std::filesystem::path& path, Bytes bytes) {

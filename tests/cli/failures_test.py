@@ -7,6 +7,7 @@ them, no other file does, and the program ends by itself and says why.
 
 import argparse
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -126,8 +127,13 @@ class Failures(unittest.TestCase):
         """Commands that write several files, with those files: some are there already, and bendy has written them."""
         (self.folder / "in.bendy").write_bytes((SOURCE / SEEDS / "rope.bendy").read_bytes())
         (self.folder / "m.gltf").write_bytes((SOURCE / SEEDS / "rope.gltf").read_bytes())
-        for line, names in ((("export", "in.bendy", "-q", "-o", "a.gltf"), ["a.gltf", "a.bin"]),
-                            (("convert", "m.gltf", "-q", "-o", "m.bendy", "--depfile", "m.d"), ["m.bendy", "m.d"])):
+        frames = ("in.bendy", "--clip", "0", "--frames", "8..10@50")
+        lines = [(("export", "in.bendy", "-q", "-o", "a.gltf"), ["a.gltf", "a.bin"]),
+                 (("convert", "m.gltf", "-q", "-o", "m.bendy", "--depfile", "m.d"), ["m.bendy", "m.d"]),
+                 (("pose", *frames, "-o", "p##.obj"), ["p08.obj", "p09.obj", "p10.obj"])]
+        if HAS_VIEWER:
+            lines.append((("render", *frames, "--size", "16x16", "-o", "r##.png"), ["r08.png", "r09.png", "r10.png"]))
+        for line, names in lines:
             for is_old in (True, False):
                 with self.subTest(command=line[0], is_old=is_old):
                     before = dict.fromkeys(names)
@@ -256,6 +262,29 @@ class Failures(unittest.TestCase):
                 self.assertEqual(result.returncode, 2 if line[0] == "diff" else 1)
                 self.assertRegex(result.stderr.decode(), r"^bendy: error: rope\.(bendy|gltf): .*Too many open files\n$")
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["rope.bendy", "rope.gltf"])
+
+    def test_a_sequence_of_any_length_takes_few_open_files_and_little_memory(self):
+        self.bendy("convert", "-q", Path("examples/tentacle.glb"), "-o", str(self.folder / "in.bendy"))
+
+        def peak(frames):
+            """Kilobytes that the program has taken at most."""
+            process = subprocess.Popen([BENDY, "pose", "in.bendy", "--clip", "0", "--frames", f"0..{frames - 1}@1000", "-o", "p#.ply"],
+                                       cwd=self.folder, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, stdout=subprocess.PIPE,
+                                       preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (24, 24)))
+            process.stdout.close()
+            errors = process.stderr.read()
+            process.stderr.close()
+            _, status, usage = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            self.assertEqual(process.returncode, 0, errors)
+            self.assertEqual(len(list(self.folder.glob("p*.ply"))), frames)
+            self.nothing_is_beside()
+            return usage.ru_maxrss
+
+        few = peak(10)
+        size = (self.folder / "p0.ply").stat().st_size
+        self.assertGreater(size, 50_000)
+        self.assertLess(peak(100) - few, 100 * size / 1024 / 4)  # that is names
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "there is no /dev/full")
     def test_a_full_standard_output_is_an_error_of_every_command(self):

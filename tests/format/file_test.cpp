@@ -96,6 +96,35 @@ TEST_F(WriteFileTest, WritesSeveralFiles) {
     EXPECT_TRUE(write_files({}).has_value());
 }
 
+TEST_F(WriteFileTest, ASetOfFilesReplacesTheOldOnesAtItsEnd) {
+    put(in("a"), "old");
+    {
+        FileSet abandoned;
+        ASSERT_TRUE(abandoned.write({in("a"), as_byte_span("one")}).has_value());
+        ASSERT_TRUE(abandoned.write({in("b"), as_byte_span("two")}).has_value());
+        EXPECT_EQ(content(in("a")), "old");
+        EXPECT_EQ(names().size(), 3u);  // and two beside it
+    }
+    EXPECT_EQ(names(), (std::vector<std::string>{"a"}));
+    FileSet files;
+    for (const char* text : {"one", "three"}) {  // it can be used again
+        ASSERT_TRUE(files.write({in("a"), as_byte_span(text)}).has_value());
+        EXPECT_FALSE(files.write({in("none") / "c", as_byte_span("lost")}).has_value());
+        ASSERT_TRUE(files.write({in("b"), as_byte_span("two")}).has_value());
+        ASSERT_TRUE(files.replace().has_value());
+        EXPECT_EQ(content(in("a")), text);
+        EXPECT_EQ(content(in("b")), "two");
+        EXPECT_EQ(names(), (std::vector<std::string>{"a", "b"}));
+    }
+    ASSERT_TRUE(files.write({in("a"), as_byte_span("new")}).has_value());
+    ASSERT_TRUE(files.write({in("d"), as_byte_span("new")}).has_value());
+    fs::create_directory(in("d"));
+    const auto replaced = files.replace();
+    ASSERT_FALSE(replaced.has_value());
+    EXPECT_EQ(replaced.error().file, 1u);
+    EXPECT_EQ(content(in("a")), "three");
+}
+
 TEST_F(WriteFileTest, WritesNoneOfSeveralFilesIfOneCannotBeWritten) {
     put(in("a"), "old");
     fs::create_directory(in("folder"));

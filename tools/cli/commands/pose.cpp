@@ -200,10 +200,15 @@ void run(const PoseArguments& arguments) {
     const Model model = read_model(arguments.file, file.bytes());
     Poser poser(arguments, model);
     if (range) warn_outside(arguments.file, *poser.clip(), *range);
-    ProgressBar bar("posing");
-    for (std::size_t k = 0; k < poses.size(); ++k) {
-        outputs.write(poses[k].file, writer(poser.pose_at(poses[k].time)));
-        if (range) bar.show(k + 1, poses.size());
+    if (range) {
+        ProgressBar bar("posing");
+        for (std::size_t k = 0; k < poses.size(); ++k) {
+            outputs.stage(poses[k].file, as_byte_span(writer(poser.pose_at(poses[k].time))));
+            bar.show(k + 1, poses.size());
+        }
+        outputs.replace_staged();
+    } else {
+        outputs.write(poses.front().file, writer(poser.pose_at(poses.front().time)));
     }
     poser.print_tally();
 }

@@ -219,14 +219,15 @@ std::vector<std::byte> draw_animation(ReachingMaker& maker, const RenderArgument
     return file->finish(length);
 }
 
-void draw_sequence(ReachingMaker& maker, const RenderArguments& arguments, const Outputs& outputs) {
+void draw_sequence(ReachingMaker& maker, const RenderArguments& arguments, Outputs& outputs) {
     const FrameRange& range = *arguments.pictures.range;
     ProgressBar bar("drawing");
     for (std::uint32_t k = 0; k < range.count(); ++k) {
         const std::uint32_t frame = range.first + k;
-        outputs.write(frame_output(arguments.output, frame), viewer::encode_png(maker.draw(range.time(frame))));
+        outputs.stage(frame_output(arguments.output, frame), viewer::encode_png(maker.draw(range.time(frame))));
         bar.show(k + 1, range.count());
     }
+    outputs.replace_staged();
 }
 
 /// The number of frames of an animation if it was not given: 25 per second.
@@ -237,7 +238,7 @@ unsigned default_frames(const Clip& clip) {
     return static_cast<unsigned>(std::clamp(std::round(kRate * length), 1.0, kMost));
 }
 
-void draw_all(RenderArguments& arguments, const Model& model, const std::string& format, const Outputs& outputs) {
+void draw_all(RenderArguments& arguments, const Model& model, const std::string& format, Outputs& outputs) {
     const bool is_animation = format != "png";
     viewer::RenderOptions& render = arguments.render;
     Frames& frames = arguments.pictures;

@@ -264,11 +264,28 @@ void Outputs::writes_beside(const fs::path& output, const fs::path& beside) {
     if (!why_not_replaced(beside).empty() || !refers_to(beside, output)) fail(output_name(output), kForeign);
 }
 
-void Outputs::write(std::span<const FileContents> files) const {
+void Outputs::fail_for_inputs() const {
     for (const fs::path& claimed : outputs_) {
         if (const fs::path* input = input_at(claimed))
             fail(output_name(claimed), "is an input as well as an output: " + shown_name(*input) + " was read");
     }
+}
+
+void Outputs::stage(const fs::path& output, Bytes bytes) {
+    assert(outputs_.contains(output) && !is_dash(output));
+    staged_names_.push_back(output);
+    if (const auto staged = staged_.write({output, bytes}); !staged) fail(output, describe(staged.error()));
+}
+
+void Outputs::replace_staged() {
+    fail_for_inputs();
+    if (const auto replaced = staged_.replace(); !replaced)
+        fail(staged_names_[replaced.error().file], describe(replaced.error().error));
+    staged_names_.clear();
+}
+
+void Outputs::write(std::span<const FileContents> files) const {
+    fail_for_inputs();
     std::vector<FileContents> named;
     for (const FileContents& file : files) {
         assert(outputs_.contains(file.path));

@@ -63,6 +63,10 @@ public:
 
     /// Writes outputs that were noted: all of them, or none. Fails if one of them has since turned out to be an input.
     void write(std::span<const FileContents> files) const;
+    /// The same for outputs that are made one after another, none of them standard output: `stage` writes one beside
+    /// the old file, `replace_staged` then puts all of them in place. Only one of them at a time is in memory.
+    void stage(const std::filesystem::path& output, Bytes bytes);
+    void replace_staged();
     void write(const std::filesystem::path& output, Bytes bytes) const;
     /// Escapes control characters in text that goes to a terminal.
     void write(const std::filesystem::path& output, std::string_view text) const;
@@ -70,12 +74,15 @@ public:
 private:
     [[nodiscard]] const std::filesystem::path* input_at(const std::filesystem::path& output) const;
     void fail_if(const std::string& problem, const std::filesystem::path& output) const;
+    void fail_for_inputs() const;
 
     bool force_;
     std::map<FileIdentity, std::filesystem::path> inputs_;
     std::set<std::filesystem::path> outputs_;   // as given
     std::set<std::filesystem::path> resolved_;  // links followed, whether the file exists or not
     std::set<FileIdentity> replaced_;           // the outputs that exist
+    FileSet staged_;
+    std::vector<std::filesystem::path> staged_names_;
 };
 
 /// Returns "standard output" for a dash, otherwise the path.

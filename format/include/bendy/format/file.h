@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <span>
 
 namespace BENDY_PUBLIC bendy {
@@ -64,14 +65,35 @@ struct WriteFailure {
     Error error;
 };
 
-/// Writes several files, each as write_file does, which replace the old ones together or not at all: all are flushed to
-/// disk before the first is renamed, and if a rename fails, the old files are put back. Only if the program is killed
-/// between two renames, or the machine stops, are some files new and others old; the old ones are then beside them as
-/// `.bendy-*`.
+/// Files that are written one after another, each as write_file does, and replace the old ones together or not at all:
+/// all are flushed to disk before the first is renamed, and if a rename fails, the old files are put back. Only if the
+/// program is killed between two renames, or the machine stops, are some files new and others old; the old ones are
+/// then beside them as `.bendy-*`. Holds names only, neither contents nor open files, so there may be any number.
+class FileSet {
+public:
+    FileSet();
+    FileSet(const FileSet&) = delete;
+    FileSet& operator=(const FileSet&) = delete;
+    FileSet(FileSet&&) = delete;
+    FileSet& operator=(FileSet&&) = delete;
+    /// Removes what was written but has not replaced anything.
+    ~FileSet();
+
+    /// Writes a new file beside its target; a pipe or a device is written to directly.
+    Result<void> write(const FileContents& file);
+    /// Replaces the old files. The set is empty afterwards, in any case. `WriteFailure::file` counts calls of write.
+    Result<void, WriteFailure> replace();
+
+private:
+    struct Files;
+    std::unique_ptr<Files> files_;
+};
+
+/// Writes several files that replace the old ones together or not at all: see FileSet.
 Result<void, WriteFailure> write_files(std::span<const FileContents> files);
 
-/// For a handler of signals that end the program: removes the temporary files of write_file and write_files on all
-/// threads. Waits until files that are being replaced together are all replaced. Safe in signal handlers on any thread;
+/// For a handler of signals that end the program: removes the temporary files of the functions above on all threads.
+/// Waits until files that are being replaced together are all replaced. Safe in signal handlers on any thread;
 /// afterwards nothing can be written.
 void remove_temporary_files() noexcept;
 
