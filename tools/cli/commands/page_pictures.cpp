@@ -2,6 +2,7 @@
 
 #ifdef BENDY_HAS_VIEWER
 
+#include <bendy/format/diagnostics.h>
 #include <bendy/runtime/model.h>
 #include <bendy/viewer/picture.h>
 #include <bendy/viewer/render.h>
@@ -12,8 +13,9 @@ namespace bendy::tools {
 namespace {
 
 constexpr std::size_t kMostPictures = 6;
-constexpr std::size_t kMostBytes = std::size_t{8} << 20u;  // of all pictures together
-constexpr std::uint32_t kStillSide = 512;                  // pixels
+constexpr std::size_t kMostBytes = std::size_t{8} << 20u;          // of all pictures together
+constexpr std::uint64_t kTextureBytes = std::uint64_t{32} << 20u;  // of all textures: the pictures are small
+constexpr std::uint32_t kStillSide = 512;                          // pixels
 constexpr std::uint32_t kClipSide = 256;
 constexpr unsigned kFrames = 16;  // of an animation
 constexpr unsigned kFewestFrames = 4;
@@ -26,6 +28,7 @@ viewer::RenderOptions options_of(std::uint32_t side, const Clip* clip, std::size
     options.width = options.height = side;
     options.clip = clip;
     options.folders = folders;
+    options.texture_bytes = kTextureBytes;
     options.draw.background = glm::vec4(0.0f);
     options.draw.thin_bones = bones > kManyBones;
     return options;
@@ -50,7 +53,7 @@ PagePictures draw_page_pictures(Bytes file, const ReadableFolders& folders) {
     PagePictures pictures;
     const Result<Model> model = Model::from_memory(file);
     if (!model) {
-        pictures.why_none = "the file has faults";
+        pictures.why_none = describe(model.error());
         return pictures;
     }
     const std::size_t bones = model->vertex_count() == 0 ? model->joints().size() : 0;  // drawn without a surface only

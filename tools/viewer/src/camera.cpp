@@ -16,6 +16,8 @@ constexpr float kSteepest = 1.55f;  // radians: straight up has no yaw
 class Points {
 public:
     void add(const glm::vec3& p) {
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            throw ViewerError("the pose is out of a float's range");
         constexpr float kFarthest = 1e15f;  // squares of larger numbers overflow a float
         if (!(std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest)) return;
         low_ = glm::min(low_, p);
@@ -31,6 +33,21 @@ private:
     glm::vec3 low_{std::numeric_limits<float>::max()};
     glm::vec3 high_{std::numeric_limits<float>::lowest()};
 };
+
+/// Raises the sizes of the submeshes to those in one pose.
+void measure(const Model& model, std::span<const glm::vec3> positions, std::vector<float>& sizes) {
+    const auto submeshes = model.submeshes();
+    sizes.resize(submeshes.size());
+    for (std::size_t k = 0; k < submeshes.size(); ++k) {
+        const Submesh& submesh = submeshes[k];
+        Points points;
+        for (std::uint32_t at = 0; at < submesh.count; ++at) {
+            points.add(positions[model.first_vertex(submesh.mesh) +
+                                 model.meshes()[submesh.mesh].indices->index(submesh.first + at, 0)]);
+        }
+        if (!points.empty()) sizes[k] = std::max(sizes[k], 2.0f * points.box().radius());
+    }
+}
 
 /// Returns the vertices that submeshes use; meshes may have others.
 std::vector<std::uint64_t> drawn_vertices(const Model& model) {
@@ -125,7 +142,7 @@ std::vector<bool> find_controls(const Model& model) {
 }
 
 Box bounding_box(const Model& model, const Clip* clip, const std::function<void(Pose&)>& adjust,
-                 std::span<const glm::vec3> others) {
+                 std::span<const glm::vec3> others, std::vector<float>* sizes) {
     constexpr int kTimes = 12;
     const std::vector<std::uint64_t> drawn = drawn_vertices(model);
     std::vector<glm::vec3> positions(drawn.empty() ? 0 : model.vertex_count());
@@ -145,6 +162,7 @@ Box bounding_box(const Model& model, const Clip* clip, const std::function<void(
         } else {
             (void)skin(pose, {.out = {.positions = positions}});
             for (const std::uint64_t v : drawn) points.add(positions[v]);
+            if (sizes != nullptr) measure(model, positions, *sizes);
         }
     }
     return points.empty() ? Box{} : points.box();

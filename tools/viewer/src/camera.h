@@ -66,9 +66,11 @@ std::vector<bool> find_controls(const Model& model);
 
 /// Returns a box around everything that is drawn of a model, at a dozen times of the clip; null: in the rest pose. If
 /// the model has no surface, the box contains its joints, without the controls.
+/// Throws ViewerError if something that is drawn is out of a float's range.
 /// \param adjust  changes every pose after sampling; may be empty
 /// \param others  further points that the box contains
+/// \param sizes   receives the largest diagonal of each submesh, metres; may be null
 Box bounding_box(const Model& model, const Clip* clip, const std::function<void(Pose&)>& adjust = {},
-                 std::span<const glm::vec3> others = {});
+                 std::span<const glm::vec3> others = {}, std::vector<float>* sizes = nullptr);
 
 }  // namespace bendy::viewer

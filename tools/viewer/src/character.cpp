@@ -5,9 +5,12 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <cstdint>
 
 namespace bendy::viewer {
 namespace {
+
+constexpr std::uint64_t kMostTextureBytesInWindow = std::uint64_t{512} << 20u;
 
 Model open_model(Bytes bytes, const std::string& title) {
     Result<Model> model = Model::from_memory(bytes);
@@ -38,6 +41,8 @@ Character::Character(std::vector<std::byte> file_bytes, std::string name, const 
     box = box_of(*model);
     renderer = std::make_unique<Renderer>(*model, folders, warn);
     renderer->set_box(box);
+    // The window can become larger, and the camera can go near.
+    renderer->load_textures({2.0 * kMostPixels, kMostTextureBytesInWindow});
     player = std::make_unique<Player>(*model);
     if (is_demo) demo = std::make_unique<Demo>(*model);
 }

@@ -15,8 +15,8 @@ void attach(const Renderbuffer& buffer, GLenum place, GLenum format, std::uint32
 }
 
 void check_complete() {
-    const bool is_complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-    if (!is_complete || glGetError() == GL_OUT_OF_MEMORY)
+    check_memory();
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         throw ViewerError("the graphics driver cannot make a picture of this size");
 }
 
@@ -50,6 +50,9 @@ Frame::Frame(std::uint32_t width, std::uint32_t height, std::uint32_t samples, b
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
     if (std::max(width, height) > static_cast<std::uint32_t>(largest))
         throw ViewerError("the graphics driver makes pictures up to " + std::to_string(largest) + " pixels wide");
+    constexpr std::uint64_t kBytesOfASample = 8;  // colour, depth
+    constexpr std::uint64_t kBytesOfAPixel = 8;   // colour, and a copy of it
+    require_memory((samples * kBytesOfASample + kBytesOfAPixel) * width * height, "a picture of this size");
     const std::uint32_t used = std::min(samples, static_cast<std::uint32_t>(std::max(most, 1)));
     const GLenum format = srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
     glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());

@@ -49,14 +49,14 @@ ShownSurface shown_surface(const MaterialView& material) {
     return surface;
 }
 
-/// For all textures together: half a gigabyte.
-constexpr std::uint64_t kMostTexels = 1u << 27u;
+constexpr const char* kCannotRead = "cannot be read";
 
 void upload_pixels(GLuint texture, const Picture& picture, bool srgb) {
     bind_texture(kUploadUnit, GL_TEXTURE_2D, texture);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTexImage2D(GL_TEXTURE_2D, 0, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, static_cast<GLsizei>(picture.width),
                  static_cast<GLsizei>(picture.height), 0, GL_RGBA, GL_UNSIGNED_BYTE, picture.pixels.data());
+    glGenerateMipmap(GL_TEXTURE_2D);
 }
 
 void set_parameter(GLenum what, GLint value) {
@@ -81,8 +81,25 @@ void set_sampler(const SamplerRecord& sampler) {
                   static_cast<Filter>(sampler.mag_filter) == Filter::nearest ? GL_NEAREST : GL_LINEAR);
     set_parameter(GL_TEXTURE_WRAP_S, wrap_of(sampler.wrap_s));
     set_parameter(GL_TEXTURE_WRAP_T, wrap_of(sampler.wrap_t));
-    if (sampler.min_filter == 0 || sampler.min_filter >= static_cast<std::uint8_t>(Filter::nearest_mipmap_nearest))
-        glGenerateMipmap(GL_TEXTURE_2D);
+}
+
+std::size_t index_of(Texels texels) {
+    return static_cast<std::size_t>(texels);
+}
+
+/// The bytes of an image in a file, or in the model's.
+struct ImageBytes {
+    MappedFile file;
+    Bytes bytes;
+};
+
+std::optional<ImageBytes> bytes_of(const ImageView& view, const std::filesystem::path& file) {
+    if (file.empty()) return ImageBytes{{}, view.bytes};
+    auto read = MappedFile::read(file);
+    if (!read) return std::nullopt;
+    ImageBytes image{*std::move(read), {}};
+    image.bytes = image.file.bytes();
+    return image;
 }
 
 }  // namespace
@@ -95,7 +112,7 @@ std::vector<ShownSurface> shown_surfaces(const Model& model) {
 }
 
 TextureLoader::TextureLoader(const Model& model, ReadableFolders folders, Warn warn)
-    : model_(&model), folders_(std::move(folders)), warn_(std::move(warn)), pixels_left_(kMostTexels) {
+    : model_(&model), folders_(std::move(folders)), warn_(std::move(warn)) {
     constexpr std::uint8_t kLight = 170;
     constexpr std::uint8_t kDark = 110;
     upload_pixels(white_.name(), {1, 1, {255, 255, 255, 255}}, false);
@@ -111,53 +128,163 @@ TextureLoader::TextureLoader(const Model& model, ReadableFolders folders, Warn w
     set_sampler(coarse);
 }
 
-void TextureLoader::load(std::uint32_t number, bool srgb) {
-    const auto all = model_->textures();
-    if (number >= all.size()) return;
-    const auto [entry, is_new] = loaded_.try_emplace({number, srgb});
-    if (!is_new) return;
-    std::string problem = "has no image";
-    for (const ImageView& image : all[number].images) {
-        const ImageView& source = image.same ? all[image.same->texture].images[image.same->image] : image;
-        GlTexture texture;
-        if (!upload(number, source, srgb, texture, problem)) continue;
-        entry->second = std::move(texture);
-        return;
+bool TextureLoader::Image::is_complete() const {
+    for (std::size_t k = 0; k < textures.size(); ++k) {
+        if (is_wanted[k] && !textures[k]) return false;
     }
-    warn_("texture " + std::to_string(number) + " cannot be shown: " + problem);
+    return true;
 }
 
-std::optional<GLuint> TextureLoader::texture(std::uint32_t number, bool srgb) const {
-    const auto found = loaded_.find({number, srgb});
-    if (found == loaded_.end() || !found->second) return std::nullopt;
-    return found->second->name();
+/// What its textures take that are wanted but not there yet.
+std::uint64_t TextureLoader::Image::bytes() const {
+    std::uint64_t copies = 0;
+    for (std::size_t k = 0; k < textures.size(); ++k) copies += is_wanted[k] && !textures[k] ? 1 : 0;
+    const std::uint64_t texels = std::uint64_t{halved(size.width, halvings)} * halved(size.height, halvings);
+    return copies * texels * 16 / 3;  // 4 bytes; the mipmaps take a third of that
 }
 
-bool TextureLoader::upload(std::uint32_t number, const ImageView& image, bool srgb, GlTexture& texture,
-                           std::string& problem) {
-    MappedFile linked;
-    Bytes bytes = image.bytes;
-    if (bytes.empty()) {
-        const auto path = folders_.find(image.uri);
+void TextureLoader::load(std::span<const TextureUse> uses, const TextureLimits& limits,
+                         const std::function<double(const TextureUse&)>& scale) {
+    std::map<std::pair<std::uint32_t, Texels>, Wanted> by_texture;
+    for (const TextureUse& use : uses) {
+        const std::uint32_t number = use.record->texture;
+        if (number >= model_->textures().size() || loaded_.contains({number, use.texels})) continue;
+        Wanted& wanted = by_texture[{number, use.texels}];
+        wanted.texture = number;
+        wanted.texels = use.texels;
+        wanted.uses.push_back(&use);
+    }
+    std::vector<Wanted> left;
+    for (auto& [key, wanted] : by_texture) left.push_back(std::move(wanted));
+    while (!left.empty()) {
+        std::erase_if(left, [&](Wanted& wanted) {
+            if (choose(wanted, limits, scale)) return false;
+            warn_("texture " + std::to_string(wanted.texture) + " cannot be shown: " + wanted.problem);
+            return true;
+        });
+        plan(limits);
+        for (Image& image : images_) {
+            if (image.size.problem.empty() && !image.is_complete()) make(image);
+        }
+        // If an image cannot be decoded, the next one of the texture may be.
+        std::erase_if(left, [&](const Wanted& wanted) {
+            if (!images_[wanted.image].size.problem.empty()) return false;
+            loaded_[{wanted.texture, wanted.texels}] = wanted.image;
+            return true;
+        });
+    }
+}
+
+/// Finds the first of a texture's images that may be decoded.
+bool TextureLoader::choose(Wanted& wanted, const TextureLimits& limits,
+                           const std::function<double(const TextureUse&)>& scale) {
+    const auto all = model_->textures();
+    const std::vector<ImageView>& alternatives = all[wanted.texture].images;
+    for (; wanted.alternative < alternatives.size(); ++wanted.alternative) {
+        const ImageView& view = alternatives[wanted.alternative];
+        const auto found =
+            find_image(view.same ? all[view.same->texture].images[view.same->image] : view, wanted.problem);
+        if (!found) continue;
+        wanted.image = *found;
+        Image& image = images_[*found];
+        image.is_wanted[index_of(wanted.texels)] = true;
+        const double side = std::max(image.size.width, image.size.height);
+        constexpr double kSmall = 256.0;
+        if (side <= kSmall) image.needed = side;
+        for (const TextureUse* use : wanted.uses) {
+            if (image.needed < side) image.needed = std::max(image.needed, limits.side * scale(*use));
+        }
+        return true;
+    }
+    return false;
+}
+
+std::optional<std::size_t> TextureLoader::find_image(const ImageView& view, std::string& problem) {
+    Image image;
+    image.view = &view;
+    std::size_t* known = nullptr;
+    if (view.bytes.empty()) {
+        const auto path = folders_.find(view.uri);
         problem = "its image is not in this file";
         if (!path && path.error() == LinkProblem::control)
             problem += ", and its link, which holds a control character, is not followed";
         if (!path && path.error() == LinkProblem::outside)
             problem += ", and is not read from outside its folder: --root FOLDER allows a folder that it is in";
-        if (!path) return false;
-        auto opened = MappedFile::read(*path);
-        problem = "its image " + path->string() + " cannot be read";
-        if (!opened) return false;
-        linked = *std::move(opened);
-        bytes = linked.bytes();
+        if (!path) return std::nullopt;
+        image.file = *path;
+        known = &by_file_.try_emplace(*path, images_.size()).first->second;
+    } else {
+        known = &by_bytes_.try_emplace(as_text(view.bytes), images_.size()).first->second;
     }
-    const ReadImage read = read_image(bytes, pixels_left_);
-    if (!read.problem.empty()) {
-        problem = "its image " + read.problem;
-        return false;
+    if (*known == images_.size()) {
+        const auto read = bytes_of(view, image.file);
+        image.size = read ? read_image_size(read->bytes) : ImageSize{0, 0, kCannotRead};
+        images_.push_back(std::move(image));
     }
-    pixels_left_ -= std::uint64_t{read.picture.width} * read.picture.height;
-    upload_pixels(texture.name(), read.picture, srgb);
+    const std::string& why = images_[*known].size.problem;
+    if (why.empty()) return *known;
+    problem = why == kCannotRead ? "its image " + images_[*known].file.string() + ' ' + why : "its image " + why;
+    return std::nullopt;
+}
+
+/// Decides how far each image is scaled down: to what can be seen of it, and then the largest ones until all of them
+/// together take no more than they may.
+void TextureLoader::plan(const TextureLimits& limits) {
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    const auto is_smaller = [](const Image* a, const Image* b) { return a->bytes() < b->bytes(); };
+    std::vector<Image*> heap;
+    std::uint64_t bytes = bytes_;
+    for (Image& image : images_) {
+        if (!image.size.problem.empty() || image.is_complete()) continue;
+        const std::uint32_t side = std::max(image.size.width, image.size.height);
+        image.halvings = 0;
+        while (halved(side, image.halvings) > static_cast<std::uint32_t>(largest) ||
+               std::ldexp(static_cast<double>(side), -static_cast<int>(image.halvings) - 1) >=
+                   std::max(image.needed, 1.0))
+            ++image.halvings;
+        bytes += image.bytes();
+        heap.push_back(&image);
+    }
+    const std::uint64_t all = bytes;
+    std::size_t reduced = 0;
+    std::make_heap(heap.begin(), heap.end(), is_smaller);
+    while (bytes > limits.bytes && !heap.empty()) {
+        std::pop_heap(heap.begin(), heap.end(), is_smaller);
+        Image& image = *heap.back();
+        if (image.size.width >> image.halvings <= 1 && image.size.height >> image.halvings <= 1) break;  // so are all
+        bytes -= image.bytes();
+        ++image.halvings;
+        bytes += image.bytes();
+        std::push_heap(heap.begin(), heap.end(), is_smaller);
+        ++reduced;
+    }
+    require_memory(bytes - bytes_, "the textures");
+    if (reduced == 0) return;
+    constexpr std::uint64_t kMiB = std::uint64_t{1} << 20u;
+    warn_("the textures are scaled down: they would take " + std::to_string((all + kMiB - 1) / kMiB) +
+          " MiB for pictures of this size, and get " + std::to_string(limits.bytes / kMiB));
+}
+
+void TextureLoader::make(Image& image) {
+    const auto read = bytes_of(*image.view, image.file);
+    const bool is_colour = image.is_wanted[index_of(Texels::srgb)];
+    const ReadImage made = read ? read_image(read->bytes, image.halvings, is_colour ? Texels::srgb : Texels::linear)
+                                : ReadImage{{}, kCannotRead};
+    image.size.problem = made.problem;
+    if (!made.problem.empty()) return;
+    bytes_ += image.bytes();
+    for (std::size_t k = 0; k < image.textures.size(); ++k) {
+        if (image.is_wanted[k] && !image.textures[k])
+            upload_pixels(image.textures[k].emplace().name(), made.picture, k == index_of(Texels::srgb));
+    }
+    check_memory();
+}
+
+bool TextureLoader::bind(GLuint unit, std::uint32_t number, Texels texels) const {
+    const auto found = loaded_.find({number, texels});
+    if (found == loaded_.end()) return false;
+    bind_texture(unit, GL_TEXTURE_2D, images_[found->second].textures[index_of(texels)]->name());
     set_sampler(model_->textures()[number].sampler);
     return true;
 }

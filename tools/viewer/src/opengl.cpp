@@ -8,11 +8,23 @@
 #include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
+#include <sys/mman.h>
 
 #include <array>
+#include <thread>
 
 namespace bendy::viewer {
 namespace {
+
+constexpr std::uint64_t kMiB = std::uint64_t{1} << 20u;
+
+/// Returns true if the process may map so much more, of which nothing is used.
+bool can_map(std::uint64_t bytes, int protection) {
+    void* const memory = mmap(nullptr, bytes, protection, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory == MAP_FAILED) return false;
+    munmap(memory, bytes);
+    return true;
+}
 
 bool has_library(const char* file) {
     return dlopen(file, RTLD_LAZY | RTLD_LOCAL) != nullptr;  // never closed: drivers crash if they are loaded again
@@ -67,7 +79,27 @@ GLuint compile(GLenum kind, const char* source) {
 
 }  // namespace
 
+void require_memory(std::uint64_t bytes, const std::string& what) {
+    constexpr std::uint64_t kForTheDriver = 64 * kMiB;  // which compiles shaders when it draws
+    if (!can_map(bytes + kForTheDriver, PROT_READ | PROT_WRITE))
+        throw ViewerError("not enough memory for " + what + ", which takes " +
+                          std::to_string((bytes + kMiB - 1) / kMiB) + " MiB");
+}
+
+void require_driver_memory() {
+    // Mesa's software renderer on two processors, measured: 640 MiB of addresses, most of them libraries, and 90 MiB of
+    // data.
+    constexpr std::uint64_t kData = 128 * kMiB;
+    const std::uint64_t addresses = (768 + 16 * std::uint64_t{std::thread::hardware_concurrency()}) * kMiB;
+    if (!can_map(addresses, PROT_NONE)) {
+        throw ViewerError("not enough memory for OpenGL, whose driver takes up to " + std::to_string(addresses / kMiB) +
+                          " MiB of addresses (ulimit -v)");
+    }
+    require_memory(kData, "OpenGL");
+}
+
 OffscreenContext::OffscreenContext() {
+    require_driver_memory();
     std::string tried;
     if (!epoxy_has_egl()) {
         add_line(tried, "EGL", "libEGL.so.1 is not there");
@@ -138,6 +170,12 @@ Program::Program(const char* vertex_source, const char* fragment_source) : name_
 
 Program::~Program() {
     glDeleteProgram(name_);
+}
+
+void check_memory() {
+    while (const GLenum error = glGetError()) {
+        if (error == GL_OUT_OF_MEMORY) throw ViewerError("not enough memory for OpenGL");
+    }
 }
 
 void bind_texture(GLuint unit, GLenum target, GLuint texture) {

@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -10,6 +11,12 @@
 // OpenGL: an offscreen context, owners of OpenGL objects, shader programs, texture units.
 
 namespace bendy::viewer {
+
+/// Throws ViewerError if the process may not take so much more memory, under a limit such as `ulimit -v`: drivers do
+/// not survive a lack of it. \param what  what takes it, for the message
+void require_memory(std::uint64_t bytes, const std::string& what);
+/// The same for an OpenGL driver. Call it before the driver is loaded.
+void require_driver_memory();
 
 /// An OpenGL 3.3 core context without a window, current on this thread during its lifetime. It draws into framebuffer
 /// objects only.
@@ -100,6 +107,9 @@ enum TextureUnit : GLuint {
     kWeightUnit = 11,
     kUploadUnit = 15,  ///< for uploads, so that they do not unbind the textures in use
 };
+
+/// Throws ViewerError if OpenGL has run out of memory since the last call.
+void check_memory();
 
 /// Binds a texture to a unit; `target` such as GL_TEXTURE_2D.
 void bind_texture(GLuint unit, GLenum target, GLuint texture);

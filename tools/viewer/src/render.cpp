@@ -10,16 +10,41 @@
 
 #include <glm/vec2.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <span>
 #include <vector>
 
 namespace bendy::viewer {
 namespace {
 
-/// Returns a box around everything that will be drawn.
-Box box_of(const Model& model, const RenderOptions& options) {
+/// Returns a box around everything that will be drawn. \param sizes  receives those of the submeshes
+Box box_of(const Model& model, const RenderOptions& options, std::vector<float>& sizes) {
     std::vector<glm::vec3> targets;
     for (const DrawnTarget& target : options.targets) targets.push_back(target.position);
-    return bounding_box(model, options.clip, options.adjust, targets);
+    return bounding_box(model, options.clip, options.adjust, targets, &sizes);
+}
+
+/// Throws ViewerError for a pose that cannot be drawn.
+void require_finite(Pose& pose) {
+    const auto is_finite = [](std::span<const float> numbers) {
+        return std::all_of(numbers.begin(), numbers.end(), [](float number) { return std::isfinite(number); });
+    };
+    const auto matrices = pose.model_space();
+    bool is_good = matrices.empty() || is_finite({&matrices.front()[0][0], 16 * matrices.size()});
+    for (std::uint32_t mesh = 0; is_good && mesh < pose.model().meshes().size(); ++mesh) {
+        const auto palette = pose.palette(mesh);
+        is_good = std::all_of(palette.begin(), palette.end(), [&](const PaletteMatrix& matrix) {
+            return is_finite({&matrix.rows[0][0], 12});
+        });
+    }
+    if (!is_good) throw ViewerError("the pose is out of a float's range");
+}
+
+/// If one image goes round a character that fills the picture, half of it is seen from each side.
+TextureLimits limits_of(const RenderOptions& options) {
+    return {2.0 * std::max(options.width, options.height) / std::min(1.0, static_cast<double>(options.camera.distance)),
+            options.texture_bytes};
 }
 
 }  // namespace
@@ -38,10 +63,16 @@ struct PictureMaker::Parts {
         if (!has_surface(model)) options.draw.bones = true;
         if (frame.width() != wanted.width || frame.height() != wanted.height)
             frame = Frame(wanted.width, wanted.height);
-        const Box box = box_of(model, wanted);
+        std::vector<float> sizes;
+        const Box box = box_of(model, wanted, sizes);
         renderer.set_box(box);
         camera.fit(box, wanted.camera, static_cast<float>(wanted.width) / static_cast<float>(wanted.height));
         renderer.set_level(wanted.lod);
+        if (!has_textures && options.draw.surface && !options.draw.wireframe) {
+            for (float& size : sizes) size /= 2.0f * box.radius();
+            renderer.load_textures(limits_of(wanted), sizes);
+            has_textures = true;
+        }
     }
 
     [[nodiscard]] std::vector<TargetMark> marks() {
@@ -67,6 +98,7 @@ struct PictureMaker::Parts {
     Renderer renderer;
     Camera camera;
     Pose pose;
+    bool has_textures = false;
 };
 
 PictureMaker::PictureMaker(const Model& model, const RenderOptions& options, const Warn& warn)
@@ -86,6 +118,7 @@ Picture PictureMaker::draw(float time) {
     Parts& p = *parts_;
     (void)sample(p.pose, p.options.clip, time);  // null: the rest pose
     if (p.options.adjust) p.options.adjust(p.pose);
+    require_finite(p.pose);
     p.frame.bind();
     const std::vector<TargetMark> marks = p.marks();
     DrawOptions shown = p.options.draw;

@@ -2,6 +2,7 @@
 
 #include "shading.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
@@ -10,6 +11,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <span>
 
 namespace bendy::viewer {
 namespace {
@@ -31,7 +34,7 @@ glm::mat3 uv_matrix(const TextureUseRecord& use) {
 struct MapUse {
     const TextureUseRecord* record;
     const char* sampler;
-    bool srgb;
+    Texels texels;
 };
 
 constexpr std::uint32_t kLastSet = 3;  // of texture coordinates
@@ -39,11 +42,37 @@ constexpr std::uint32_t kLastSet = 3;  // of texture coordinates
 enum Map : std::size_t { kBaseColour, kMetallicRoughness, kNormal, kOcclusion, kEmissive };
 
 std::array<MapUse, 5> maps_of(const SurfaceRecord& surface) {
-    return {{{&surface.base_colour_texture, "base_colour_map", true},
-             {&surface.metallic_roughness_texture, "metallic_roughness_map", false},
-             {&surface.normal_texture, "normal_map", false},
-             {&surface.occlusion_texture, "occlusion_map", false},
-             {&surface.emissive_texture, "emissive_map", true}}};
+    return {{{&surface.base_colour_texture, "base_colour_map", Texels::srgb},
+             {&surface.metallic_roughness_texture, "metallic_roughness_map", Texels::linear},
+             {&surface.normal_texture, "normal_map", Texels::linear},
+             {&surface.occlusion_texture, "occlusion_map", Texels::linear},
+             {&surface.emissive_texture, "emissive_map", Texels::srgb}}};
+}
+
+/// Lines, points and unlit surfaces show their base colour only.
+bool is_lit(const Submesh& submesh, const SurfaceRecord& surface) {
+    return surface.unlit == 0 && submesh.topology == Topology::triangles;
+}
+
+/// Returns the share of an image's side that a submesh shows, above 0 to 1.
+double shown_share(const Model& model, const TextureUse& use) {
+    const Mesh& mesh = model.meshes()[use.submesh->mesh];
+    const std::uint32_t set = std::min(use.record->coords, kLastSet);
+    const auto coords = std::find_if(mesh.texture_coords.begin(), mesh.texture_coords.end(),
+                                     [set](const StreamView& stream) { return stream.set == set; });
+    if (coords == mesh.texture_coords.end() || coords->components < 2) return 1.0;
+    const glm::mat3 matrix = uv_matrix(*use.record);
+    glm::vec2 low(std::numeric_limits<float>::max());
+    glm::vec2 high = -low;
+    for (std::uint32_t k = 0; k < use.submesh->count; ++k) {
+        const std::uint32_t vertex = mesh.indices->index(use.submesh->first + k, 0);
+        const glm::vec2 uv(matrix * glm::vec3(coords->number(vertex, 0), coords->number(vertex, 1), 1.0f));
+        low = glm::min(low, uv);
+        high = glm::max(high, uv);
+    }
+    const glm::vec2 extent = high - low;
+    constexpr double kLeast = 1.0 / 16'384.0;
+    return std::max(std::min(1.0, static_cast<double>(std::max(extent.x, extent.y))), kLeast);  // 1 if not a number
 }
 
 /// 16 entries a side, as in three.js.
@@ -81,6 +110,7 @@ std::vector<glm::vec3> draw_centres(const Model& model) {
 
 Renderer::Renderer(const Model& model, const ReadableFolders& folders, const Warn& warn)
     : model_(&model),
+      warn_(warn),
       surfaces_(shown_surfaces(model)),
       level_(model),
       buffers_(model),
@@ -92,7 +122,7 @@ Renderer::Renderer(const Model& model, const ReadableFolders& folders, const War
       overlay_program_(kOverlayVertexShader, kOverlayShader),
       centres_(draw_centres(model)) {
     buffers_.set_level(level_);
-    load_textures(warn);
+    upload_reflectance(reflectance_.name());
     glBindVertexArray(overlay_layout_.name());
     glBindBuffer(GL_ARRAY_BUFFER, overlay_vertices_.name());
     describe_floats(0, 3, sizeof(OverlayVertex), offsetof(OverlayVertex, position));
@@ -145,17 +175,25 @@ const ShownSurface& Renderer::surface_of(const Submesh& submesh) const {
     return surfaces_[std::min<std::size_t>(submesh.material, surfaces_.size() - 1)];
 }
 
-/// Loads all textures before the first draw, so that no upload comes between the calls that set up a draw.
-void Renderer::load_textures(const Warn& warn) {
+void Renderer::load_textures(const TextureLimits& limits, std::span<const float> sizes) {
     bool is_beyond = false;
+    std::vector<TextureUse> uses;
     for (const Submesh& submesh : model_->submeshes()) {
-        for (const MapUse& use : maps_of(surface_of(submesh).record)) {
-            textures_.load(use.record->texture, use.srgb);
-            is_beyond = is_beyond || (use.record->texture != kNone && use.record->coords > kLastSet);
+        if (submesh.count == 0) continue;
+        const SurfaceRecord& surface = surface_of(submesh).record;
+        const std::array<MapUse, 5> maps = maps_of(surface);
+        for (const MapUse& map : std::span(maps).first(is_lit(submesh, surface) ? maps.size() : kBaseColour + 1)) {
+            uses.push_back({&submesh, map.record, map.texels});
+            is_beyond = is_beyond || (map.record->texture != kNone && map.record->coords > kLastSet);
         }
     }
-    if (is_beyond) warn("a texture uses a set of coordinates after the fourth: it is drawn with the fourth");
-    upload_reflectance(reflectance_.name());
+    textures_.load(uses, limits, [&](const TextureUse& use) {
+        const auto number = static_cast<std::size_t>(use.submesh - model_->submeshes().data());
+        constexpr double kLeast = 0.125;  // it may grow in another clip
+        const double size = sizes.empty() ? 1.0 : std::clamp(static_cast<double>(sizes[number]), kLeast, 1.0);
+        return size / shown_share(*model_, use);
+    });
+    if (is_beyond) warn_("a texture uses a set of coordinates after the fourth: it is drawn with the fourth");
 }
 
 void Renderer::set_material(const Submesh& submesh) const {
@@ -167,10 +205,9 @@ void Renderer::set_material(const Submesh& submesh) const {
     std::array<bool, 5> is_shown{};
     for (std::size_t k = 0; k < uses.size(); ++k) {
         const auto unit = static_cast<GLuint>(kMaterialUnit + k);
-        const auto texture = textures_.texture(uses[k].record->texture, uses[k].srgb);
-        is_shown[k] = texture.has_value();
+        is_shown[k] = textures_.bind(unit, uses[k].record->texture, uses[k].texels);
         const bool is_checked = k == kBaseColour && uses[k].record->texture != kNone;
-        bind_texture(unit, GL_TEXTURE_2D, texture.value_or(is_checked ? textures_.check() : textures_.white()));
+        if (!is_shown[k]) bind_texture(unit, GL_TEXTURE_2D, is_checked ? textures_.check() : textures_.white());
         glUniform1i(surface_[uses[k].sampler], static_cast<GLint>(unit));
         matrices[k] = uv_matrix(*uses[k].record);
         sets[k] = static_cast<GLint>(std::min(uses[k].record->coords, kLastSet));

@@ -23,6 +23,9 @@ public:
     /// Sets the box that the camera is fitted to: bones, axes and marks are drawn in proportion to it.
     void set_box(const Box& box) { overlay_.set_size(2.0f * box.radius()); }
     void set_level(float share);
+    /// Loads the textures of all submeshes, before the first draw of surfaces. \param sizes  of the submeshes, as
+    /// shares of the whole character's; empty: 1
+    void load_textures(const TextureLimits& limits, std::span<const float> sizes = {});
     [[nodiscard]] const Lod& level() const { return level_; }
 
     /// Draws the pose, and the `targets` of IK chains if the options say so. `size`: of the framebuffer, pixels.
@@ -37,7 +40,6 @@ private:
     void draw_surface(const Camera& camera) const;
     void draw_wireframe(const Camera& camera) const;
     void draw_range(const Submesh& submesh) const;
-    void load_textures(const Warn& warn);
     void set_material(const Submesh& submesh) const;
     void draw_overlay(Pose& pose, const Camera& camera, const DrawOptions& options, std::span<const TargetMark> targets,
                       const glm::vec2& size);
@@ -47,6 +49,7 @@ private:
     [[nodiscard]] const ShownSurface& surface_of(const Submesh& submesh) const;
 
     const Model* model_;
+    Warn warn_;
     std::vector<ShownSurface> surfaces_;  // of each material, then the default one
     Lod level_;
     SceneBuffers buffers_;

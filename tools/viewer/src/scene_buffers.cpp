@@ -186,7 +186,7 @@ SceneBuffers::SceneBuffers(const Model& model) : model_(&model) {
     describe_vertices();
     influences_.fill(influences.data(), bytes_of(influences), GL_STATIC_DRAW);
     displacements_.fill(displacements.data(), bytes_of(displacements), GL_STATIC_DRAW);
-    if (glGetError() == GL_OUT_OF_MEMORY) throw ViewerError("the graphics driver is out of memory");
+    check_memory();
 }
 
 void SceneBuffers::set_pose(Pose& pose) {

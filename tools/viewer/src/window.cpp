@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <new>
 
 namespace bendy::viewer {
 namespace {
@@ -97,6 +98,7 @@ Window::~Window() {
 }
 
 void Window::open_gl() {
+    require_driver_memory();
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -146,7 +148,7 @@ void Window::on_drop(const std::filesystem::path& file) {
         fit_camera();
         message_.clear();
     } catch (const std::exception& problem) {
-        message_ = problem.what();
+        message_ = dynamic_cast<const std::bad_alloc*>(&problem) != nullptr ? "not enough memory" : problem.what();
         if (options_.warn) options_.warn(message_);
     }
 }

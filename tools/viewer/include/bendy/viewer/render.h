@@ -46,6 +46,9 @@ struct DrawnTarget {
     glm::vec3 position{0.0f};      ///< metres, model space
 };
 
+/// What the textures of a picture take at most, with their mipmaps. Larger ones are scaled down, with a warning.
+inline constexpr std::uint64_t kMostTextureBytes = std::uint64_t{256} << 20u;
+
 struct RenderOptions {
     std::uint32_t width = 1024;  ///< pixels, 1 to kMostPixels
     std::uint32_t height = 768;  ///< likewise
@@ -54,6 +57,7 @@ struct RenderOptions {
     CameraOptions camera;
     DrawOptions draw;
     ReadableFolders folders;  ///< of the images that the file links to
+    std::uint64_t texture_bytes = kMostTextureBytes;
     /// Changes every pose after sampling, to apply constraints or IK. May be empty.
     std::function<void(Pose&)> adjust;
     std::vector<DrawnTarget> targets;
@@ -73,8 +77,8 @@ public:
     PictureMaker& operator=(PictureMaker&&) = delete;
     ~PictureMaker();
 
-    /// Draws with other options from now on; `folders` stay. Faster than another PictureMaker, which compiles all
-    /// shaders again.
+    /// Draws with other options from now on; `folders` and the textures stay, which are as large as the first picture
+    /// of a surface needs. Faster than another PictureMaker, which compiles all shaders again.
     void change(const RenderOptions& options);
     /// Draws the character at a time of the clip, in seconds.
     Picture draw(float time);
