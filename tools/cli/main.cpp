@@ -4,6 +4,7 @@
 #include "reports/console.h"
 #include "reports/messages.h"
 
+#include <bendy/format/file.h>
 #include <bendy/format/names.h>
 
 #include <CLI/Config.hpp>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -156,15 +158,33 @@ int run(std::vector<std::string> words) {
     return kFailed;
 }
 
+void say_that_memory_is_out() {
+    std::fputs("bendy: error: not enough memory\n", stderr);
+}
+
+/// A destructor that finds no memory, such as that of JSON, ends the program.
+[[noreturn]] void end_for_lack_of_memory() {
+    try {
+        if (const std::exception_ptr problem = std::current_exception()) std::rethrow_exception(problem);
+    } catch (const std::bad_alloc&) {
+        bendy::remove_temporary_files();
+        say_that_memory_is_out();
+        std::_Exit(bendy::tools::status_of_failures());
+    } catch (...) {  // a fault of this program
+    }
+    std::abort();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::set_terminate(end_for_lack_of_memory);
     try {
         bendy::tools::prepare_console();
         bendy::tools::watch_signals();
         return run(bendy::tools::command_line(argc, argv));
     } catch (const std::bad_alloc&) {
-        std::fputs("bendy: error: not enough memory\n", stderr);
+        say_that_memory_is_out();
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "bendy: error: %s\n", bendy::tools::printable(problem.what()).c_str());
     } catch (...) {

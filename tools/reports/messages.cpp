@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <new>
 
 namespace bendy::tools {
 namespace {
@@ -58,6 +59,11 @@ std::size_t put_escape(std::string_view before, std::uint32_t number, std::size_
     char* at = std::copy(before.begin(), before.end(), to);
     for (std::size_t k = digits; k > 0; --k) *at++ = kDigits[number >> 4 * (k - 1) & 0xfu];
     return static_cast<std::size_t>(at - to);
+}
+
+std::string about_faults(const Faults& faults, Bytes bytes) {
+    return "the file has faults, `bendy validate` lists them; the first: " +
+           describe_with_place(faults.list().front(), bytes);
 }
 
 bool shows_colour(Stream stream) {
@@ -198,6 +204,10 @@ void fail(const std::filesystem::path& file, const Error& error, Bytes bytes) {
     fail(file, describe_with_place(error, bytes));
 }
 
+std::string what_of(const std::exception& problem) {
+    return dynamic_cast<const std::bad_alloc*>(&problem) != nullptr ? "not enough memory" : printable(problem.what());
+}
+
 void warn(const std::filesystem::path& file, std::string_view what) {
     std::cerr << warning_label() << shown_name(file) << ": " << printable(what) << '\n';
 }
@@ -227,8 +237,11 @@ void print_fault_lines(std::ostream& out, const std::filesystem::path& file, con
 }
 
 void warn_of_faults(const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
-    warn(file, "the file has faults, `bendy validate` lists them; the first: " +
-                   describe_with_place(faults.list().front(), bytes));
+    warn(file, about_faults(faults, bytes));
+}
+
+void fail_for_faults(const std::filesystem::path& file, const Faults& faults, Bytes bytes) {
+    fail(file, about_faults(faults, bytes));
 }
 
 std::filesystem::path file_of(const converter::ImportError& error, const std::filesystem::path& input) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
@@ -82,6 +83,8 @@ struct Failed {
 [[noreturn]] void fail(const std::filesystem::path& file, std::string_view what);
 /// The same for a fault in a file's bytes, with chunk path and offset.
 [[noreturn]] void fail(const std::filesystem::path& file, const Error& error, Bytes bytes);
+/// Returns what an exception of the C++ library or of another one says, in our words.
+std::string what_of(const std::exception& problem);
 /// Prints `bendy: warning: FILE: what` to standard error, escaped.
 void warn(const std::filesystem::path& file, std::string_view what);
 
@@ -93,8 +96,9 @@ void print_proposals(const converter::Report& report);
 /// Prints a line for each fault: the file, the code, the fault and its position.
 void print_fault_lines(std::ostream& out, const std::filesystem::path& file, const Faults& faults, Bytes bytes);
 
-/// Warns about a file that is shown or written despite its faults.
+/// Says that a file has faults, and the first of them: in a warning if it is written nevertheless, and as an error.
 void warn_of_faults(const std::filesystem::path& file, const Faults& faults, Bytes bytes);
+[[noreturn]] void fail_for_faults(const std::filesystem::path& file, const Faults& faults, Bytes bytes);
 
 /// Returns the file that an error of the converter is about.
 std::filesystem::path file_of(const converter::ImportError& error, const std::filesystem::path& input);

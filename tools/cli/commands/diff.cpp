@@ -245,7 +245,7 @@ void run(const DiffArguments& arguments) {
                   << ": tracks share more keys than can be compared\n";
         throw Failed{kTrouble};
     } catch (const std::exception& problem) {
-        std::cerr << error_label() << printable(problem.what()) << '\n';
+        std::cerr << error_label() << what_of(problem) << '\n';
         throw Failed{kTrouble};
     }
     if (!same) throw Failed{kDiffers};

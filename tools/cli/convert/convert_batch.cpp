@@ -130,7 +130,7 @@ private:
             try {
                 outcome.failure = convert(next, outcome, writing);
             } catch (const std::exception& problem) {
-                outcome.failure = Failure{file.input, problem.what()};
+                outcome.failure = Failure{file.input, what_of(problem)};
             }
             outcome.time = Clock::now() - start;
             shares_[next].done.store(1.0f, std::memory_order_relaxed);

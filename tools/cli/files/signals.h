@@ -7,8 +7,9 @@ namespace bendy::tools {
 /// past its new end is reported as an error that names the file. Call it once, at the start.
 void watch_signals();
 
-/// Sets the exit status after such an error, which is 1 by default.
+/// Sets the exit status after such an error, and after a lack of memory that nothing else handles; 1 by default.
 void set_status_of_failures(int status);
+int status_of_failures();
 
 /// During its lifetime, the first request to end the program (INT, TERM, HUP) is only noted; a second one ends it at
 /// once.

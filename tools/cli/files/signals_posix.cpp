@@ -19,7 +19,7 @@ namespace {
 
 std::atomic<bool> is_noting{false};
 std::atomic<int> noted{0};
-std::atomic<int> status_of_failures{1};
+std::atomic<int> failure_status{1};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);  // for the handlers
 
 constexpr std::array kRequests{SIGINT, SIGTERM, SIGHUP};
@@ -57,7 +57,7 @@ extern "C" void end_for_shorter_file(int signal, siginfo_t* info, void* /*contex
         print_at_once({letter.data(), size});
     }
     print_at_once(": became shorter while it was read\n");
-    std::_Exit(status_of_failures);
+    std::_Exit(failure_status);
 }
 
 /// Leaves a signal ignored if the parent process ignored it, as nohup does.
@@ -82,7 +82,11 @@ void watch_signals() {
 }
 
 void set_status_of_failures(int status) {
-    status_of_failures = status;
+    failure_status = status;
+}
+
+int status_of_failures() {
+    return failure_status;
 }
 
 Interrupt::Interrupt() {

@@ -12,6 +12,7 @@ namespace {
 
 std::atomic<bool> is_noting{false};
 std::atomic<int> noted{0};
+std::atomic<int> failure_status{1};
 
 extern "C" void end(int signal) {
     int none = 0;
@@ -30,7 +31,13 @@ void watch_signals() {
     for (const int signal : std::array{SIGINT, SIGTERM, SIGBREAK}) std::signal(signal, end);
 }
 
-void set_status_of_failures(int /*status*/) {}  // a mapped file cannot become shorter
+void set_status_of_failures(int status) {
+    failure_status = status;
+}
+
+int status_of_failures() {
+    return failure_status;
+}
 
 Interrupt::Interrupt() {
     is_noting = true;
