@@ -220,7 +220,7 @@ class Structure(Case):
         sums[file.find("HEAD/VERS").offset + 5] ^= 1
         (self.folder / "sums.bendy").write_bytes(sums)
         result = self.bendy("inspect", "sums.bendy", "--html", "sums.html")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("the file has faults", result.stderr.decode())
         data = data_of((self.folder / "sums.html").read_text())
         faults = data["faults"]["list"]

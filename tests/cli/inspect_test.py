@@ -147,14 +147,15 @@ class Inspect(Case):
         names = [entry["fields"]["text"] for entry in chunks if entry["id"] == "NAME"]
         self.assertIn("root\x1b[31m\nbendy: error: forged", names)
 
-    def test_a_damaged_file_is_shown_with_a_warning(self):
+    def test_a_damaged_file_is_shown_and_is_an_error(self):
         data = bytearray(self.convert("tentacle").read_bytes())
         data[Chunk.read(bytes(data)).find("HEAD/OBJE/SKIN/NAME").offset + 16] ^= 1
         (self.folder / "bad.bendy").write_bytes(data)
         result = self.bendy("inspect", "bad.bendy")
-        self.assertEqual(result.returncode, 0)
+        self.assertEqual(result.returncode, 1)
         self.assertIn(b"SKIN", result.stdout)
-        self.assertRegex(result.stderr.decode(), r"^bendy: warning: bad\.bendy: .*HEAD/OBJE/SKIN/NAME")
+        self.assertRegex(result.stdout.decode(), r"\n +\d+ +\d+ +NAME  FAULT: the checksum does not match")
+        self.assertRegex(result.stderr.decode(), r"^bendy: error: bad\.bendy: .*HEAD/OBJE/SKIN/NAME")
 
     def test_a_file_without_structure_fails_with_its_place(self):
         data = self.convert("tentacle").read_bytes()
@@ -213,8 +214,10 @@ class InspectRig(Case):
         path.write_bytes(root.write())
         result = self.bendy("validate", path)
         self.assertEqual(result.returncode, 0 if good else 1, result.stdout)
-        line = self.done("inspect", path, "--chunk", where, "--all").decode().splitlines()[1]
-        return re.fullmatch(r" *\d+ +\d+  \w{4}(?: \d+)?(?:  (.*))?", line)[1]
+        result = self.bendy("inspect", path, "--chunk", where, "--all")
+        self.assertEqual(result.returncode, 0 if good else 1, result.stderr)
+        line = result.stdout.decode().splitlines()[1]
+        return re.fullmatch(r" *\d+ +\d+  \w{4}(?: \d+)?(?:  FAULT: .*?)?(?:  (.*))?", line)[1]
 
     def limit_line(self, chunk, good=True):
         root = Chunk.read((SOURCE / "spec" / "examples" / "one_joint.bendy").read_bytes())
@@ -335,7 +338,7 @@ class InspectRig(Case):
         body = data + chain(0, 3000).write() * 3000
         body = b"OBJE" + bytes(4) + struct.pack("<Q", len(body) | 1 << 48) + body
         (self.folder / "rope.bendy").write_bytes(b"HEAD" + bytes(4) + struct.pack("<Q", len(body) | 1 << 48) + body)
-        text = self.done("inspect", "rope.bendy").decode()
+        text = self.bendy("inspect", "rope.bendy").stdout.decode()
         self.assertEqual(text.count("joint 0 > ... 2,998 more ... > joint 2999 > joint 3000"), 3000)
 
     def test_json_has_no_infinities(self):

@@ -607,6 +607,18 @@ class Window(WithFolder):
             self.assertTrue(done.stderr.startswith(f"bendy: error: {name}: {text}"), done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1)
 
+    def test_a_file_with_numbers_that_are_none_is_refused(self):
+        tree = Chunk.read((self.folder / "tentacle.bendy").read_bytes())
+        chunk = next(chunk for _, chunk in tree.walk() if chunk.letters == "KEYV")
+        chunk.payload = struct.pack("<f", math.nan) + chunk.payload[4:]
+        bad = self.folder / "nan.bendy"
+        bad.write_bytes(tree.write())
+        state, = self.play(f"drop {bad}", file=self.folder / "tentacle.bendy")
+        self.assertRegex(state["message"], r"element 0 is not a finite number \(HEAD/OBJE/CYCL/KEYV, offset \d+\)$")
+        done = bendy("view", bad, env=self.env)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, rf"^bendy: error: {bad}: element 0 is not a finite number \(HEAD/OBJE/CYCL/KEYV, offset \d+\)\n$")
+
     def test_demo_turntable_and_animation(self):
         states = self.play("wait 0", "wait 0.5", "key R", "wait 0.5", "key P", "wait 0.5")
         self.assertAlmostEqual(states[1]["time"], 0.5, places=2)

@@ -2,6 +2,7 @@
 
 #include "reports/messages.h"
 
+#include <bendy/format/diagnostics.h>
 #include <bendy/format/leaf_parts.h>
 #include <bendy/format/marker.h>
 #include <bendy/format/packed_clip.h>
@@ -467,7 +468,28 @@ Json chunk_fields(const ChunkTree& tree, std::uint32_t number) {
     return leaf_fields(*leaf, tree.payload(number));
 }
 
-Json chunks_as_json(const ChunkTree& tree, std::uint32_t root) {
+std::uint32_t chunk_at(const ChunkTree& tree, std::uint64_t offset) {
+    const auto chunks = tree.chunks();
+    const auto after = std::upper_bound(chunks.begin(), chunks.end(), offset,
+                                        [](std::uint64_t at, const Chunk& chunk) { return at < chunk.offset; });
+    return after == chunks.begin() ? kNone : static_cast<std::uint32_t>(after - chunks.begin() - 1);
+}
+
+FaultyChunks::FaultyChunks(const ChunkTree& tree, const Faults& faults) {
+    for (const Error& fault : faults.list()) first_.try_emplace(chunk_at(tree, fault.offset), fault);
+}
+
+std::string FaultyChunks::text(std::uint32_t number) const {
+    const auto found = first_.find(number);
+    return found == first_.end() ? std::string() : bendy::describe(found->second);
+}
+
+bool FaultyChunks::has_fault(const ChunkTree& tree, std::uint32_t number) const {
+    const auto found = first_.lower_bound(number);
+    return found != first_.end() && found->first < tree[number].end;
+}
+
+Json chunks_as_json(const ChunkTree& tree, std::uint32_t root, const FaultyChunks& faulty) {
     Json chunks = Json::array();
     for (std::uint32_t number = root; number < tree[root].end; ++number) {
         const Chunk& chunk = tree[number];
@@ -487,6 +509,7 @@ Json chunks_as_json(const ChunkTree& tree, std::uint32_t root) {
             entry["decoded"] = tree.payload(number).size();
         }
         if (auto fields = chunk_fields(tree, number); !fields.empty()) entry["fields"] = std::move(fields);
+        if (std::string fault = faulty.text(number); !fault.empty()) entry["fault"] = std::move(fault);
         chunks.push_back(std::move(entry));
     }
     return chunks;

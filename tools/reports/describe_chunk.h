@@ -3,10 +3,12 @@
 #include "reports/describe_rig.h"
 
 #include <bendy/format/chunk_reader.h>
+#include <bendy/format/error.h>
 
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -23,9 +25,26 @@ std::string encoding_text(const ChunkTree& tree, std::uint32_t number);
 /// chunks without a record.
 nlohmann::ordered_json chunk_fields(const ChunkTree& tree, std::uint32_t number);
 
+/// The chunks that have faults, for the tree.
+class FaultyChunks {
+public:
+    FaultyChunks(const ChunkTree& tree, const Faults& faults);
+
+    /// Returns what is wrong with a chunk, its first fault; empty if nothing is.
+    [[nodiscard]] std::string text(std::uint32_t number) const;
+    /// True if a chunk, or one in it, has a fault.
+    [[nodiscard]] bool has_fault(const ChunkTree& tree, std::uint32_t number) const;
+
+private:
+    std::map<std::uint32_t, Error> first_;  // of each chunk
+};
+
+/// Returns the number of the innermost chunk at an offset; kNone if there is none.
+std::uint32_t chunk_at(const ChunkTree& tree, std::uint64_t offset);
+
 /// Returns the chunks from `root` on as a JSON array in file order. An entry's "parent" is the number of an earlier
 /// entry, so that a skeleton of ten thousand levels does not nest the JSON.
-nlohmann::ordered_json chunks_as_json(const ChunkTree& tree, std::uint32_t root);
+nlohmann::ordered_json chunks_as_json(const ChunkTree& tree, std::uint32_t root, const FaultyChunks& faulty);
 
 /// Returns the meaning of an id ("joint", "key times", ...), or "unknown".
 std::string_view chunk_meaning(FourCC id);

@@ -27,13 +27,8 @@ constexpr std::uint32_t kMostChunks = 100'000;
 constexpr std::size_t kMostWarnings = 1'000;
 
 /// Returns the innermost chunk at an offset, or null.
-Json chunk_at(const ChunkTree* tree, std::uint64_t offset) {
-    if (tree == nullptr) return nullptr;
-    const auto chunks = tree->chunks();
-    const auto after = std::upper_bound(chunks.begin(), chunks.end(), offset,
-                                        [](std::uint64_t at, const Chunk& chunk) { return at < chunk.offset; });
-    if (after == chunks.begin()) return nullptr;
-    const auto number = static_cast<std::uint32_t>(after - chunks.begin() - 1);
+Json chunk_or_null(const ChunkTree* tree, std::uint64_t offset) {
+    const std::uint32_t number = tree == nullptr ? kNone : chunk_at(*tree, offset);
     return number < kMostChunks ? Json(number) : Json(nullptr);
 }
 
@@ -44,7 +39,7 @@ Json faults_json(const InspectedFile& file) {
                         {"text", describe(fault)},
                         {"path", chunk_path(file.bytes, fault.offset)},
                         {"offset", fault.offset},
-                        {"chunk", chunk_at(file.tree, fault.offset)}});
+                        {"chunk", chunk_or_null(file.tree, fault.offset)}});
     }
     return {{"total", file.faults.count()}, {"list", std::move(list)}};
 }

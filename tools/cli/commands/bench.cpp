@@ -169,7 +169,7 @@ void print_json(const BenchArguments& arguments, const Model& model, const Clip*
 
 void run(const BenchArguments& arguments) {
     const InputBytes file = open_bendy_file(arguments.file, Storage::copied);
-    const Model model = read_model(arguments.file, file.bytes());
+    const Model model = read_valid_model(arguments.file, file.bytes());
     const Clip* clip = model.clips().empty() ? nullptr : model.clips().data();
     if (!arguments.clip.empty()) clip = &find_clip(arguments.clip, arguments.file, model);
 

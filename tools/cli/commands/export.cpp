@@ -47,7 +47,7 @@ converter::ExportOptions options_of(const ExportArguments& arguments, Bytes file
     converter::ExportOptions options;
     options.output = is_dash(arguments.output) ? "standard output" : arguments.output;
     if (!(arguments.lod < 1.0f)) return options;
-    const Model model = read_model(arguments.file, file);
+    const Model model = read_valid_model(arguments.file, file);
     const Lod lod = level_of(arguments.file, model, arguments.lod);
     for (std::uint32_t mesh = 0; mesh < model.meshes().size(); ++mesh) options.vertices.push_back(lod.vertices(mesh));
     return options;

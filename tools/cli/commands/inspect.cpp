@@ -81,7 +81,8 @@ std::string indentation(std::size_t depth) {
     return spaces;
 }
 
-void print_tree(const ChunkTree& tree, std::uint32_t root, bool all) {
+/// Shows folded chunks, too, where there is a fault in them.
+void print_tree(const ChunkTree& tree, std::uint32_t root, bool all, const FaultyChunks& faulty) {
     const std::size_t width = columns_of(Stream::output);
     std::cout << in_colour(Colour::bold, "      offset         size  chunk", Stream::output) << '\n';
     std::vector<std::uint32_t> ends;  // of the containers around this chunk
@@ -95,7 +96,7 @@ void print_tree(const ChunkTree& tree, std::uint32_t root, bool all) {
             continue;
         }
         while (!ends.empty() && number >= ends.back()) ends.pop_back();
-        if (!all && number != root && is_folded(tree, chunk)) {
+        if (!all && number != root && is_folded(tree, chunk) && !faulty.has_fault(tree, number)) {
             number = chunk.end;
             continue;
         }
@@ -106,6 +107,8 @@ void print_tree(const ChunkTree& tree, std::uint32_t root, bool all) {
         std::string line = before;
         line += chunk.id.letters().data();
         line += label;
+        const std::string fault = faulty.text(number);
+        if (!fault.empty()) line += "  FAULT: " + fault;
         const std::string content = describe_chunk(tree, number, rigs);
         if (!content.empty()) line += "  " + content;
         line = cut_to(line, width);
@@ -113,7 +116,8 @@ void print_tree(const ChunkTree& tree, std::uint32_t root, bool all) {
         const std::size_t end = std::min(start + chunk.id.letters().size() - 1, line.size());
         std::cout << line.substr(0, start)
                   << in_colour(Colour::bold, std::string_view(line).substr(start, end - start), Stream::output)
-                  << line.substr(end) << '\n';
+                  << (fault.empty() ? line.substr(end) : in_colour(Colour::red, line.substr(end), Stream::output))
+                  << '\n';
         if (chunk.is_container()) ends.push_back(chunk.end);
         ++number;
     }
@@ -145,10 +149,10 @@ void print_hex(Bytes bytes, std::uint64_t offset) {
 }
 
 void print_json(const InspectArguments& arguments, const ChunkTree& tree, std::uint32_t root,
-                const std::optional<Summary>& summary) {
+                const std::optional<Summary>& summary, const FaultyChunks& faulty) {
     Json document{{"file", arguments.file.string()}, {"bytes", tree.bytes().size()}};
     if (arguments.chunk.empty()) document["summary"] = summary ? summary_as_json(*summary) : Json(nullptr);
-    if (!arguments.summary) document["chunks"] = chunks_as_json(tree, root);
+    if (!arguments.summary) document["chunks"] = chunks_as_json(tree, root, faulty);
     print_report(document, 1);
 }
 
@@ -157,7 +161,7 @@ std::string short_name(const std::filesystem::path& file) {
 }
 
 void print_text(const InspectArguments& arguments, const ChunkTree& tree, std::uint32_t root,
-                const std::optional<Summary>& summary) {
+                const std::optional<Summary>& summary, const FaultyChunks& faulty) {
     const std::string name = short_name(arguments.file);
     if (arguments.chunk.empty() && summary) {
         std::cout << summary_as_text(*summary, name, columns_of(Stream::output));
@@ -167,7 +171,7 @@ void print_text(const InspectArguments& arguments, const ChunkTree& tree, std::u
         std::cout << escaped(name) << ", " << grouped(tree.bytes().size()) << " bytes, "
                   << grouped(tree.chunks().size()) << " chunks\n";
     }
-    print_tree(tree, root, arguments.all);
+    print_tree(tree, root, arguments.all, faulty);
 }
 
 /// \returns its size in bytes
@@ -198,10 +202,14 @@ void run_html(const InspectArguments& arguments) {
     file.tree = &*tree;
     file.document = read_document(*tree, file.faults);
     check_values(*tree, file.document, file.faults);
-    file.pictures = draw_page_pictures(file.bytes, folders_of(arguments.file, arguments.root));
+    if (file.faults.empty()) {
+        file.pictures = draw_page_pictures(file.bytes, folders_of(arguments.file, arguments.root));
+    } else {
+        file.pictures.why_none = "the file has faults";
+    }
     const std::size_t size = write_page(arguments, outputs, file);
     print_size(arguments.html, size) << ", " << counted(file.faults.count(), "fault") << '\n';
-    if (!file.faults.empty()) warn_of_faults(arguments.file, file.faults, file.bytes);
+    if (!file.faults.empty()) fail_for_faults(arguments.file, file.faults, file.bytes);
 }
 
 void run(const InspectArguments& arguments) {
@@ -220,24 +228,27 @@ void run(const InspectArguments& arguments) {
              "there is no chunk " + printable(arguments.chunk) + "; paths look like HEAD/OBJE/SKIN[1]/NAME");
     }
 
+    Faults faults;
+    check_sums(tree, faults);
+    const Document document = read_document(tree, faults);
+    check_values(tree, document, faults);
+    const FaultyChunks faulty(tree, faults);
+    if (!faults.empty() && arguments.summary) fail(arguments.file, faults.list().front(), file.bytes());
     std::optional<Summary> summary;  // empty for a file with faults, which still has chunks to show
-    if (root == 0 && !arguments.hex) {
+    if (root == 0 && !arguments.hex && faults.empty()) {
         Result<Summary> found = summarize_file(tree, file.bytes());
-        if (!found && arguments.summary) fail(arguments.file, found.error(), file.bytes());
-        if (found) summary = *std::move(found);
+        if (!found) fail(arguments.file, found.error(), file.bytes());
+        summary = *std::move(found);
     }
     if (arguments.json) {
-        print_json(arguments, tree, root, summary);
+        print_json(arguments, tree, root, summary, faulty);
     } else if (arguments.hex) {
         const Chunk& chunk = tree[root];
         print_hex(file.bytes().subspan(chunk.offset, kChunkHeaderSize + chunk.size), chunk.offset);
     } else {
-        print_text(arguments, tree, root, summary);
+        print_text(arguments, tree, root, summary, faulty);
     }
-    Faults faults;
-    check_sums(tree, faults);
-    if (faults.empty()) read_document(tree, faults);
-    if (!faults.empty()) warn_of_faults(arguments.file, faults, file.bytes());
+    if (!faults.empty()) fail_for_faults(arguments.file, faults, file.bytes());
 }
 
 }  // namespace

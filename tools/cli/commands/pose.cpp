@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -90,6 +91,10 @@ std::vector<PosedCurve> sample_curves(const Clip& clip, float seconds) {
     return curves;
 }
 
+bool is_finite(std::span<const float> numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](float number) { return std::isfinite(number); });
+}
+
 /// Poses one character again and again.
 class Poser {
 public:
@@ -112,6 +117,9 @@ public:
             object.curves = sample_curves(*clip_, time);
         }
         object.reaches = reach_chains(pose, time);
+        for (const glm::mat4& matrix : pose.model_space()) {
+            if (!is_finite({&matrix[0][0], 16})) fail(arguments_.file, "the pose is out of a float's range");
+        }
         for (std::size_t joint = 0; joint < model_.joints().size(); ++joint)
             object.joints.push_back({std::string(model_.joints()[joint].name), pose.model_space()[joint]});
         for (std::uint32_t number = 0; number < model_.meshes().size(); ++number)
@@ -150,10 +158,10 @@ private:
         mesh.positions.resize(lod_.vertices(number));
         if (view.normals) mesh.normals.resize(lod_.vertices(number));
         (void)skin(pose, {.mesh = number, .lod = &lod_, .out = {.positions = mesh.positions, .normals = mesh.normals}});
-        const bool all_finite = std::all_of(mesh.positions.begin(), mesh.positions.end(), [](const glm::vec3& p) {
-            return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-        });
-        if (!all_finite) fail(arguments_.file, "the pose is out of a float's range in mesh " + std::to_string(number));
+        for (const std::vector<glm::vec3>* vectors : {&mesh.positions, &mesh.normals}) {
+            if (vectors->empty() || is_finite({&vectors->front().x, 3 * vectors->size()})) continue;
+            fail(arguments_.file, "the pose is out of a float's range in mesh " + std::to_string(number));
+        }
         return mesh;
     }
 
@@ -197,7 +205,7 @@ void run(const PoseArguments& arguments) {
         outputs.writes(pose.file, NamedBy::user, format == "ply" ? Content::binary : Content::text);
     require_folder_of(arguments.output);
     const CharacterFile file = open_character(arguments.file, arguments.root, outputs);
-    const Model model = read_model(arguments.file, file.bytes());
+    const Model model = read_valid_model(arguments.file, file.bytes());
     Poser poser(arguments, model);
     if (range) warn_outside(arguments.file, *poser.clip(), *range);
     if (range) {

@@ -309,7 +309,7 @@ void run(RenderArguments arguments) {
     arguments.render.draw.targets = arguments.render.draw.constraints;
     require_folder_of(arguments.output);
     const CharacterFile file = open_character(arguments.file, arguments.root, outputs, Storage::copied);
-    const Model model = read_model(arguments.file, file.bytes());
+    const Model model = read_valid_model(arguments.file, file.bytes());
     arguments.render.folders = folders_of(arguments.file, arguments.root);
     note_inputs(arguments, model, outputs);
     try {

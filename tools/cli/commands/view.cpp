@@ -7,6 +7,7 @@
 #include "commands/model_options.h"
 #include "tentacle.h"
 
+#include <bendy/format/diagnostics.h>
 #include <bendy/viewer/view.h>
 
 #include <memory>
@@ -26,6 +27,8 @@ std::vector<std::byte> open_any(const std::filesystem::path& file, const std::fi
     const auto character = read_character(file, root, report, Storage::copied);
     if (!character)
         throw viewer::ViewerError(file_of(character.error(), file).string() + ": " + describe(character.error()));
+    if (const auto checked = check_whole(character->bytes()); !checked)
+        throw viewer::ViewerError(file.string() + ": " + describe_with_place(checked.error(), character->bytes()));
     print_warnings(file, report);
     print_proposals(report);
     return {character->bytes().begin(), character->bytes().end()};

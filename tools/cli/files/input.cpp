@@ -5,6 +5,7 @@
 #include <bendy/converter/convert.h>
 #include <bendy/converter/source_format.h>
 #include <bendy/format/diagnostics.h>
+#include <bendy/format/document.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -112,6 +113,17 @@ Model read_model(const std::filesystem::path& file, Bytes bytes) {
     Result<Model> model = Model::from_memory(bytes);
     if (!model) fail(file, model.error(), bytes);
     return *std::move(model);
+}
+
+Result<void> check_whole(Bytes bytes) {
+    const Faults faults = validate(bytes);
+    if (!faults.empty()) return faults.list().front();
+    return {};
+}
+
+Model read_valid_model(const std::filesystem::path& file, Bytes bytes) {
+    if (const auto checked = check_whole(bytes); !checked) fail(file, checked.error(), bytes);
+    return read_model(file, bytes);
 }
 
 ReadableFolders folders_of(const std::filesystem::path& file, const std::filesystem::path& root) {

@@ -55,6 +55,12 @@ InputBytes open_bendy_file(const std::filesystem::path& file, Storage storage = 
 ChunkTree read_tree(const std::filesystem::path& file, Bytes bytes);
 Model read_model(const std::filesystem::path& file, Bytes bytes);
 
+/// Returns the first fault that `validate` finds. Model does not look for numbers that are not finite and the like,
+/// which poses and pictures need.
+Result<void> check_whole(Bytes bytes);
+/// Returns a file's character after that check. Fails, with the position, if there is a fault.
+Model read_valid_model(const std::filesystem::path& file, Bytes bytes);
+
 /// Returns why a file could not be opened.
 std::string why_not_opened(const std::filesystem::path& file, const Error& error);
 /// Returns a file's kind and the command that converts it to a bendy file; empty if it is a bendy file or unknown.

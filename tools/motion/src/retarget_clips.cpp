@@ -5,6 +5,7 @@
 
 #include <bendy/format/curve.h>
 #include <bendy/format/diagnostics.h>
+#include <bendy/format/document.h>
 #include <bendy/format/names.h>
 #include <bendy/runtime/model.h>
 
@@ -58,6 +59,8 @@ std::string degrees(double radians) {
 
 /// Opens the object that the clips are of, or the first one.
 Result<Model, Problem> open_model(Bytes file, bool needs_clips, const char* what) {
+    if (const Faults faults = validate(file); !faults.empty())
+        return Problem{std::string(what) + " cannot be opened: " + describe_with_place(faults.list().front(), file)};
     std::optional<Model> first;
     for (std::uint32_t object = 0;; ++object) {
         auto model = Model::from_memory(file, {object});
