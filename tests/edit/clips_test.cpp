@@ -1,5 +1,6 @@
 #include <bendy/edit/clips.h>
 
+#include "format/edit_file.h"
 #include "runtime/build_model.h"
 #include "runtime/packed_model.h"
 
@@ -78,12 +79,13 @@ Node clip_of(const std::string& name, const std::vector<Keys>& tracks, std::vect
     return node;
 }
 
-Node curve_of(const std::string& name, CurveTarget kind, std::uint32_t target, Interpolation interpolation) {
+Node curve_of(const std::string& name, CurveTarget kind, std::uint32_t target, Interpolation interpolation,
+              const std::string& path = "glow") {
     static constexpr std::array kTimes{0.5f, 1.0f, 1.5f};
     static constexpr std::array kValues{0.0f, 1.0f, 4.0f, 1.0f, 2.0f, -1.0f, 0.5f, 3.0f, 1.0f};
     CurveView curve;
     curve.name = name;
-    curve.path = "glow";
+    curve.path = path;
     curve.kind = kind;
     curve.target = target;
     curve.interpolation = interpolation;
@@ -378,6 +380,122 @@ TEST(Mirror, SwapsTargetsMarkersAndCurves) {
     }
     EXPECT_EQ(now.curves[0].name, "glow right");
     EXPECT_EQ(now.curves[0].target, arm_right);
+}
+
+/// A curve as "name kind target path".
+std::string text_of(const CurveView& curve) {
+    return std::string(curve.name) + ' ' +
+           std::string(kValueNames<CurveTarget>.at(static_cast<std::size_t>(curve.kind))) +
+           (curve.target == kNone ? "" : ' ' + std::to_string(curve.target)) + ' ' + std::string(curve.path);
+}
+
+Node leaf_of(FourCC id, const std::string& text) {
+    return test::make_leaf(id, std::as_bytes(std::span(text)));
+}
+
+/// A body with curves in its clip "Act", materials, and lights.
+Buffer body_with_curves(const std::vector<Node>& curves, std::vector<Keys> tracks = {}) {
+    tracks.push_back({arm_left, TrackPath::rotation, Interpolation::linear, kSome});
+    Node root = test::to_node(body({clip_of("Act", tracks, curves)}));
+    for (const char* name : {"eye.L", "skin", "eye.R"}) {
+        root.children.push_back(test::make_container(
+            FourCC("MATE"),
+            {leaf_of(FourCC("NAME"), name), test::make_leaf(FourCC("SURF"), bytes_of(SurfaceRecord{}))}));
+    }
+    root.children.push_back(leaf_of(FourCC("EXTN"), R"({"KHR_lights_punctual":{"lights":[
+        {"type":"point","name":"lamp_right"},{"type":"point","name":"sun"},{"type":"point","name":"lamp_left"}]},
+        "ACME":{"left":1,"up":2,"leftEye":{"open":1},"rightEye":{"open":1}}})"));
+    test::edit<VersionRecord>(test::at(root, "HEAD/VERS"), [](VersionRecord& version) { version.materials = 3; });
+    return test::to_file(root);
+}
+
+/// What a curve becomes if the clip is mirrored.
+std::string mirrored(const std::string& name, CurveTarget kind, std::uint32_t target, const std::string& path,
+                     Log* log = nullptr) {
+    const Buffer file = body_with_curves({curve_of(name, kind, target, Interpolation::linear, path)});
+    const Buffer after = changed(file, "mirror", "Act", log);
+    if (after.empty()) return {};
+    return text_of(Loaded(after).document.objects.front().clips.front().curves.front());
+}
+
+TEST(Mirror, BringsPathsAndNamesOfCurvesToTheOtherSide) {
+    const auto nothing = CurveTarget::nothing;
+    EXPECT_EQ(mirrored("left_step", nothing, kNone, "/extras/left_step"), "right_step nothing /extras/right_step");
+    EXPECT_EQ(mirrored("grip_L", nothing, kNone, "/extras/grip_L"), "grip_R nothing /extras/grip_R");
+    EXPECT_EQ(mirrored("", nothing, kNone, "/extras/hands/LeftGrip"), " nothing /extras/hands/RightGrip");
+    EXPECT_EQ(mirrored("left_heel_contact", nothing, kNone, "/extras/left_heel_contact"),
+              "right_heel_contact nothing /extras/right_heel_contact");
+    EXPECT_EQ(mirrored("glow.L", CurveTarget::joint, arm_left, "extras/glow.L"), "glow.R joint 5 extras/glow.R");
+    EXPECT_EQ(mirrored("smirk_L", CurveTarget::mesh, 0, "extras/smirk_L"), "smirk_R mesh 0 extras/smirk_R");
+    EXPECT_EQ(mirrored("left", CurveTarget::material, 0, "emissiveFactor"), "right material 2 emissiveFactor");
+    EXPECT_EQ(mirrored("pale", CurveTarget::material, 1, "emissiveFactor"), "pale material 1 emissiveFactor");
+}
+
+TEST(Mirror, FollowsPointersIntoExtensions) {
+    const auto nothing = CurveTarget::nothing;
+    const std::string lights = "/extensions/KHR_lights_punctual/lights/";
+    EXPECT_EQ(mirrored("left", nothing, kNone, lights + "2/intensity"), "right nothing " + lights + "0/intensity");
+    EXPECT_EQ(mirrored("sun", nothing, kNone, lights + "1/color"), "sun nothing " + lights + "1/color");
+    EXPECT_EQ(mirrored("x", nothing, kNone, "/extensions/ACME/leftEye/open"),
+              "x nothing /extensions/ACME/rightEye/open");
+    EXPECT_EQ(mirrored("up left", nothing, kNone, "/extensions/ACME/up"), "up right nothing /extensions/ACME/up");
+    Log log;  // a member that the object does not have yet may be made
+    EXPECT_EQ(mirrored("x", nothing, kNone, "/extensions/GONE/left", &log), "x nothing /extensions/GONE/right");
+    EXPECT_TRUE(log.warnings.empty());
+    EXPECT_EQ(mirrored("x", nothing, kNone, lights + "9/left", &log), "x nothing " + lights + "9/right");
+}
+
+TEST(Mirror, LetsCurvesWithoutSidesInTheirPathsChangePlaces) {
+    const auto curve = [](const std::string& name, const std::string& path) {
+        return curve_of(name, CurveTarget::nothing, kNone, Interpolation::linear, path);
+    };
+    const Buffer file = body_with_curves({curve("left step", "/extras/steps/0"), curve("right step", "/extras/steps/1"),
+                                          curve("left alone", "/extras/alone")});
+    const Loaded after(changed(file, "mirror", "Act"));
+    const auto& curves = after.document.objects.front().clips.front().curves;
+    EXPECT_EQ(text_of(curves[0]), "right step nothing /extras/steps/1");
+    EXPECT_EQ(text_of(curves[1]), "left step nothing /extras/steps/0");
+    EXPECT_EQ(text_of(curves[2]), "right alone nothing /extras/alone");
+    const Loaded twice(changed(changed(file, "mirror", "Act"), "mirror", "Act"));
+    EXPECT_EQ(text_of(twice.document.objects.front().clips.front().curves[0]), "left step nothing /extras/steps/0");
+}
+
+/// The joint of an expression has its weight as X, which is not a place.
+TEST(Mirror, KeepsTheWeightsOfExpressions) {
+    const auto expression = [](const std::string& name, std::uint32_t joint) {
+        return curve_of(name, CurveTarget::joint, joint, Interpolation::linear, std::string(kExpressionPath));
+    };
+    const std::vector<Keys> moves{{hand_left, TrackPath::translation, Interpolation::linear, kSome}};
+    const auto values_of = [](const Loaded& file) {
+        const TrackView& track = file.document.objects.front().clips.front().tracks.front();
+        return std::pair(track.target, std::vector<float>(track.values.begin(), track.values.end()));
+    };
+    const Buffer file = body_with_curves({expression("blinkLeft", hand_left), expression("blinkRight", hips)}, moves);
+    const Loaded before(file);
+    const Loaded after(changed(file, "mirror", "Act"));
+    EXPECT_EQ(values_of(after), std::pair(std::uint32_t{hips}, values_of(before).second));
+    const auto& curves = after.document.objects.front().clips.front().curves;
+    EXPECT_EQ(text_of(curves[0]), "blinkRight joint 1 translation/0");
+    EXPECT_EQ(text_of(curves[1]), "blinkLeft joint 4 translation/0");
+
+    Log log;
+    const Buffer one = body_with_curves({expression("blinkLeft", spine)},
+                                        {{spine, TrackPath::translation, Interpolation::linear, kSome}});
+    const Loaded alone(changed(one, "mirror", "Act", &log));
+    EXPECT_EQ(values_of(alone), values_of(Loaded(one)));
+    EXPECT_EQ(text_of(alone.document.objects.front().clips.front().curves[0]), "blinkLeft joint 2 translation/0");
+    EXPECT_EQ(log.warnings, std::vector<std::string>{"not mirrored, without a counterpart: curve \"blinkLeft\""});
+}
+
+TEST(Mirror, SaysWhatStaysOnItsSide) {
+    Log log;  // sword is below the right hand only
+    EXPECT_EQ(mirrored("left glow", CurveTarget::joint, sword, "extras/left", &log), "left glow joint 7 extras/left");
+    EXPECT_EQ(log.warnings, std::vector<std::string>{"not mirrored, without a counterpart: curve \"left glow\""});
+    log.warnings.clear();
+    const Buffer file = body({clip_of("Act", {{arm_left, TrackPath::rotation, Interpolation::linear, kSome}},
+                                      {leaf_of(FourCC("EXTR"), R"({"foot":"left"})")})});
+    changed(file, "mirror", "Act", &log);
+    EXPECT_EQ(log.warnings, std::vector<std::string>{"clip \"Act\": EXTR tells left or right, and stays as it is"});
 }
 
 TEST(Mirror, ReadsSidesInNames) {

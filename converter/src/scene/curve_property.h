@@ -18,9 +18,6 @@ using OwnProperty = std::tuple<CurveTarget, std::uint32_t, std::string, std::str
 /// Path prefix of curves that animate a joint's camera: glTF's cameras are kept with the joints that use them.
 inline constexpr std::string_view kCameraPath = "camera/";
 
-/// Path of curves that hold a VRM expression's weight: the X of the track of their joint, which the file also has.
-inline constexpr std::string_view kExpressionPath = "translation/0";
-
 /// The property of a curve; refers to the curve's memory.
 inline CurveProperty property_of(const Curve& curve) {
     return {curve.kind, curve.target, curve.path, curve.path.empty() ? curve.name : std::string_view()};

@@ -1,3 +1,5 @@
+#include "too_deep.h"
+
 #include <bendy/extensions/renumber_extensions.h>
 
 #include <nlohmann/json.hpp>
@@ -38,26 +40,6 @@ constexpr std::array<std::string_view, 9> kWithoutReferences{
     "KHR_node_selectability", "KHR_texture_transform", "KHR_xmp_json_ld"};
 /// Material extensions: their numbers are factors and texture infos.
 constexpr std::array<std::string_view, 2> kMaterials{"KHR_materials_", "VRMC_materials_"};
-
-/// Returns true if brackets are nested too deeply for recursive parsing, copying and printing.
-bool is_too_deep(std::string_view text) {
-    std::size_t depth = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (in_string) {
-            if (c == '\\') ++i;
-            in_string = c != '"';
-        } else if (c == '"') {
-            in_string = true;
-        } else if (c == '{' || c == '[') {
-            if (++depth > kMostLevels) return true;
-        } else if ((c == '}' || c == ']') && depth > 0) {
-            --depth;
-        }
-    }
-    return false;
-}
 
 /// Returns a whole number that can be the index of a thing.
 std::optional<std::uint32_t> number_in(const Json& value) {
@@ -250,6 +232,25 @@ private:
 };
 
 }  // namespace
+
+bool is_too_deep(std::string_view text) {
+    std::size_t depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string) {
+            if (c == '\\') ++i;
+            in_string = c != '"';
+        } else if (c == '"') {
+            in_string = true;
+        } else if (c == '{' || c == '[') {
+            if (++depth > kMostLevels) return true;
+        } else if ((c == '}' || c == ']') && depth > 0) {
+            --depth;
+        }
+    }
+    return false;
+}
 
 std::optional<Renumbered> renumber_extensions(std::string_view json, Host host, const NewNumber& now) {
     if (is_too_deep(json)) return std::nullopt;

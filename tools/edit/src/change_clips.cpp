@@ -4,6 +4,7 @@
 #include "keep_only.h"
 #include "mirror_clip.h"
 #include "move_root.h"
+#include "sides.h"
 
 #include <bendy/format/charconv.h>
 
@@ -342,11 +343,19 @@ private:
     Result<void, Problem> mirror(ClipKeys& clip, std::size_t object) {
         auto known = mirrors_.find(object);
         if (known == mirrors_.end()) {
-            auto mirror = Mirror::of(*clip.object);
+            auto mirror = Mirror::of(source_.document, *clip.object);
             if (!mirror) return mirror.error();
             known = mirrors_.try_emplace(object, *std::move(mirror)).first;
         }
         if (const auto done = known->second.change(clip, log_); !done) return done.error();
+        for (const FourCC id : {FourCC("EXTR"), FourCC("MORE")}) {
+            const std::uint32_t chunk = source_.tree.find(clip.view->chunk, id);
+            if (chunk == kNone ||
+                other_side(as_text(source_.tree.payload(chunk))) == as_text(source_.tree.payload(chunk)))
+                continue;
+            log_.warnings.push_back("clip " + quoted(clip.view->name) + ": " + id.letters().data() +
+                                    " tells left or right, and stays as it is");
+        }
         log_.done.push_back("mirrored clip " + quoted(clip.view->name));
         return {};
     }

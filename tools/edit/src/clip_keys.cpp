@@ -49,6 +49,7 @@ ClipCurve read_curve_keys(const CurveView& curve) {
     read.view = &curve;
     read.target = curve.target;
     read.name = curve.name;
+    read.path = curve.path;
     read.interpolation = curve.interpolation;
     read.components = curve.components;
     read.times.assign(curve.times.begin(), curve.times.end());
@@ -107,6 +108,7 @@ private:
         CurveView view = *curve.view;
         view.target = curve.target;
         view.name = curve.name;
+        view.path = curve.path;
         if (curve.has_new_keys) {
             view.interpolation = curve.interpolation;
             view.keys = static_cast<std::uint32_t>(curve.times.size());

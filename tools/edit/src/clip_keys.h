@@ -22,7 +22,7 @@ struct ClipTrack : KeyTrack {
 struct ClipCurve : KeyTrack {
     const CurveView* view = nullptr;
     std::uint32_t target = kNone;
-    std::string name;
+    std::string name, path;
     bool has_new_keys = false;  ///< if false, the keys stay as they are, packed or not
 };
 

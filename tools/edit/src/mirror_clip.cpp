@@ -108,8 +108,15 @@ bool is_finite(const glm::dvec3& v) {
 
 }  // namespace
 
-Result<Mirror, Problem> Mirror::of(const ObjectView& object) {
-    Mirror mirror(object);
+Mirror::Mirror(const Document& document, const ObjectView& object)
+    : object_(&object),
+      sides_(pair_joints(object)),
+      materials_(pair_sides(names_of(std::span(document.materials).first(document.global_materials)))),
+      textures_(pair_sides(names_of(document.textures))),
+      lists_(document.extensions) {}
+
+Result<Mirror, Problem> Mirror::of(const Document& document, const ObjectView& object) {
+    Mirror mirror(document, object);
     if (const auto measured = mirror.measure(); !measured) return measured.error();
     mirror.make_maps();
     mirror.pair_meshes();
@@ -138,6 +145,7 @@ Result<void, Problem> Mirror::measure() {
     for (std::uint32_t left = 0; left < joints.size(); ++left) {
         const std::uint32_t right = sides_.other[left];
         if (!sides_.is_left[left] || !is_finite(positions_[left]) || !is_finite(positions_[right])) continue;
+        if (positions_[left] == positions_[right]) continue;  // such as expressions, which have no place
         across += positions_[left] - positions_[right];
         between += 0.5 * (positions_[left] + positions_[right]);
         size_ = std::max(size_, glm::distance(positions_[left], positions_[right]));
@@ -220,8 +228,35 @@ void Mirror::change_weights(ClipTrack& track) const {
     track.target = meshes_[track.target];
 }
 
-void Mirror::change_track(ClipTrack& track) const {
+Mirror::Expressions Mirror::pair_expressions(const ClipKeys& clip) const {
+    const auto is_expression = [](const CurveView& curve) {
+        return curve.kind == CurveTarget::joint && curve.path == kExpressionPath;
+    };
+    std::map<std::string_view, std::uint32_t> by_name;  // in all clips: this one may have only those of one side
+    for (const ClipView& each : object_->clips) {
+        for (const CurveView& curve : each.curves) {
+            if (is_expression(curve)) by_name.try_emplace(curve.name, curve.target);
+        }
+    }
+    Expressions expressions;
+    for (const ClipCurve& curve : clip.curves) {
+        if (!is_expression(*curve.view)) continue;
+        const std::string there = other_side(curve.name);
+        const auto found = by_name.find(there);
+        const std::uint32_t paired = sides_.other[curve.target];
+        const std::uint32_t alone = paired != curve.target ? paired : kNone;
+        const std::uint32_t other = found != by_name.end() ? found->second : alone;
+        expressions.try_emplace(curve.target, there == curve.name ? curve.target : other);
+    }
+    return expressions;
+}
+
+void Mirror::change_track(ClipTrack& track, const Expressions& expressions) const {
     if (track.path == TrackPath::weights) return change_weights(track);
+    if (const auto expression = expressions.find(track.target); expression != expressions.end()) {
+        if (expression->second != kNone) track.target = expression->second;
+        return;  // a number, not a place
+    }
     if (sides_.is_kept[track.target]) return;
     const Map& map = maps_[track.target];
     track.target = sides_.other[track.target];
@@ -236,10 +271,83 @@ void Mirror::change_track(ClipTrack& track) const {
     }
 }
 
-void Mirror::warn(const ClipKeys& clip, Log& log) const {
+/// Nothing: the curve cannot be mirrored.
+std::optional<std::uint32_t> Mirror::target_there(const ClipCurve& curve, const Expressions& expressions) const {
+    switch (curve.view->kind) {
+        case CurveTarget::joint:
+            if (curve.path == kExpressionPath) {
+                const std::uint32_t other = expressions.at(curve.target);
+                return other == kNone ? std::nullopt : std::optional(other);
+            }
+            if (sides_.is_kept[curve.target]) return std::nullopt;
+            return sides_.other[curve.target];
+        case CurveTarget::mesh:
+            return meshes_[curve.target];
+        case CurveTarget::material:
+            return materials_[curve.target];
+        case CurveTarget::texture:
+            return textures_[curve.target];
+        default:
+            return curve.target;
+    }
+}
+
+/// The path with the sides in it swapped, unless there is something at the path, and nothing on the other side; an
+/// element of a list, such as a light, gives way to the one whose name is that of the other side.
+std::string Mirror::path_there(const ClipCurve& curve) {
+    if (curve.view->kind != CurveTarget::nothing) return other_side(curve.path);
+    const auto other = [&](std::string_view list, std::string_view /*after*/, std::uint32_t element) {
+        auto known = elements_.find(list);
+        if (known == elements_.end()) {
+            const std::vector<std::string>& names = lists_.list(list).names;
+            known = elements_
+                        .try_emplace(std::string(list),
+                                     pair_sides(std::vector<std::string_view>(names.begin(), names.end())))
+                        .first;
+        }
+        return std::optional(known->second[element]);
+    };
+    const std::string path = lists_.with_elements(curve.path, other).value_or(curve.path);
+    const std::string swapped = other_side(path);
+    return lists_.has(path) && !lists_.has(swapped) ? path : swapped;
+}
+
+void Mirror::change_curves(ClipKeys& clip, const Expressions& expressions, Log& log) {
+    std::map<std::string_view, const CurveView*> by_name;
+    for (const CurveView& curve : clip.view->curves) by_name.try_emplace(curve.name, &curve);
+    std::vector<std::string_view> all;
+    std::vector<std::size_t> kept;
+    for (ClipCurve& curve : clip.curves) {
+        all.push_back(curve.view->name.empty() ? curve.view->path : curve.view->name);
+        const std::optional<std::uint32_t> target = target_there(curve, expressions);
+        const std::string path = path_there(curve);
+        const std::string name = other_side(curve.name);
+        const bool is_moved = target && (*target != curve.target || path != curve.path);
+        const auto counterpart = is_moved || name == curve.name ? by_name.end() : by_name.find(name);
+        const bool has_place = !curve.path.empty() && curve.path != kExpressionPath;
+        if (counterpart != by_name.end() && counterpart->second->kind == curve.view->kind && target) {
+            curve.target = counterpart->second->target;  // the one that has the other name has the other place
+            curve.path = counterpart->second->path;
+        } else if (!target || (!is_moved && has_place && other_side(curve.path) != curve.path)) {
+            kept.push_back(all.size() - 1);
+            continue;
+        } else {
+            curve.target = *target;
+            curve.path = path;
+        }
+        curve.name = name;
+    }
+    if (kept.empty()) return;
+    log.warnings.push_back("not mirrored, without a counterpart: " +
+                           (kept.size() == 1 ? "curve " : std::to_string(kept.size()) + " curves: ") +
+                           list_names(all, kept));
+}
+
+void Mirror::warn(const ClipKeys& clip, const Expressions& expressions, Log& log) const {
     std::set<std::uint32_t> moved;
     for (const ClipTrack& track : clip.tracks) {
-        if (track.path != TrackPath::weights) moved.insert(track.target);
+        const bool is_joint = track.path != TrackPath::weights && !expressions.contains(track.target);
+        if (is_joint) moved.insert(track.target);
     }
     const auto names = names_of(object_->skeleton.joints);
     std::vector<std::size_t> kept;
@@ -276,15 +384,12 @@ void Mirror::warn(const ClipKeys& clip, Log& log) const {
     }
 }
 
-Result<void, Problem> Mirror::change(ClipKeys& clip, Log& log) const {
+Result<void, Problem> Mirror::change(ClipKeys& clip, Log& log) {
     if (!clip.plays.empty()) return Problem{"it plays stored frames, which cannot be mirrored"};
-    warn(clip, log);
-    for (ClipTrack& track : clip.tracks) change_track(track);
-    for (ClipCurve& curve : clip.curves) {
-        curve.name = other_side(curve.name);
-        if (curve.view->kind == CurveTarget::joint) curve.target = sides_.other[curve.target];
-        if (curve.view->kind == CurveTarget::mesh) curve.target = meshes_[curve.target];
-    }
+    const Expressions expressions = pair_expressions(clip);
+    warn(clip, expressions, log);
+    for (ClipTrack& track : clip.tracks) change_track(track, expressions);
+    change_curves(clip, expressions, log);
     for (ClipMarker& marker : clip.markers) marker.name = other_side(marker.name);
     return {};
 }

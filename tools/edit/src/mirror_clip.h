@@ -4,12 +4,17 @@
 #include "sides.h"
 
 #include <bendy/edit/edit.h>
+#include <bendy/extensions/pointed_lists.h>
 
 #include <glm/ext/matrix_double3x3.hpp>
 #include <glm/ext/quaternion_double.hpp>
 #include <glm/ext/vector_double3.hpp>
 
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace bendy::edit {
@@ -20,13 +25,16 @@ namespace bendy::edit {
 /// turn about the plane's normal, c = G⁻¹ r G' leads from a joint's axes to those of its counterpart, and a local
 /// rotation q becomes (c of the parent)⁻¹ q c. In a symmetric skeleton c only swaps signs, and nothing is rounded.
 /// Translations and scales are mirrored about those of the rest pose in the same axes.
+///
+/// A curve goes to the joint, mesh, material or texture of the other side, and so do the sides that its path and name
+/// tell, so that they agree.
 class Mirror {
 public:
-    /// \param object  must outlive this
-    static Result<Mirror, Problem> of(const ObjectView& object);
+    /// \param document, object  must outlive this
+    static Result<Mirror, Problem> of(const Document& document, const ObjectView& object);
 
     /// A problem for a clip that plays stored frames.
-    Result<void, Problem> change(ClipKeys& clip, Log& log) const;
+    Result<void, Problem> change(ClipKeys& clip, Log& log);
 
 private:
     /// How the values of a joint become those of its counterpart.
@@ -38,14 +46,22 @@ private:
         glm::dvec3 scale_shift{0.0};
     };
 
-    explicit Mirror(const ObjectView& object) : object_(&object), sides_(pair_joints(object)) {}
+    Mirror(const Document& document, const ObjectView& object);
 
     Result<void, Problem> measure();
     void make_maps();
     void pair_meshes();
-    void change_track(ClipTrack& track) const;
+    /// The joints of VRM expressions, and for each that of the expression on the other side. kNone: there is none, and
+    /// its curve and track stay.
+    using Expressions = std::map<std::uint32_t, std::uint32_t>;
+    [[nodiscard]] Expressions pair_expressions(const ClipKeys& clip) const;
+    void change_track(ClipTrack& track, const Expressions& expressions) const;
     void change_weights(ClipTrack& track) const;
-    void warn(const ClipKeys& clip, Log& log) const;
+    void change_curves(ClipKeys& clip, const Expressions& expressions, Log& log);
+    [[nodiscard]] std::optional<std::uint32_t> target_there(const ClipCurve& curve,
+                                                            const Expressions& expressions) const;
+    [[nodiscard]] std::string path_there(const ClipCurve& curve);
+    void warn(const ClipKeys& clip, const Expressions& expressions, Log& log) const;
 
     const ObjectView* object_;
     JointSides sides_;
@@ -57,6 +73,10 @@ private:
     std::vector<Map> maps_;              // by joint
     std::vector<std::uint32_t> meshes_;  // the mesh on the other side
     std::vector<std::vector<std::uint32_t>> targets_;  // by mesh: the target in the mesh on the other side
+    std::vector<std::uint32_t> materials_, textures_;  // those on the other side
+    extensions::PointedLists lists_;                   // of HEAD's extensions
+    std::map<std::string, std::vector<std::uint32_t>, std::less<>>
+        elements_;  // of these lists: those on the other side
 };
 
 }  // namespace bendy::edit

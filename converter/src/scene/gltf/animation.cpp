@@ -8,6 +8,8 @@
 #include "scene/failure.h"
 #include "scene/source/normalise.h"
 
+#include <bendy/format/curve.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -4,6 +4,7 @@
 #include "scene/failure.h"
 
 #include <bendy/format/charconv.h>
+#include <bendy/format/curve.h>
 
 #include <algorithm>
 #include <array>

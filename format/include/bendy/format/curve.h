@@ -27,6 +27,10 @@ struct TargetCounts {
 /// Packed values are integers from 0 to this number, from the smallest value of the component to the largest.
 inline constexpr double kPackedCurveSteps = 65'535.0;
 
+/// The path of a curve that holds a VRM expression's weight: the X of its joint's translation, whose track the clip has
+/// too. Such a joint has no place in the body.
+inline constexpr std::string_view kExpressionPath = "translation/0";
+
 /// A curve. It has keys * components values; a cubic curve has three times as many: the in-tangent, value and
 /// out-tangent of each key, `components` numbers each.
 struct CurveView {
