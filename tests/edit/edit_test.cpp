@@ -175,6 +175,49 @@ TEST(MergeClips, TakesCurvesAlong) {
               log.warnings.end());
 }
 
+/// The sample with these lights in HEAD, and curves to them.
+Buffer with_light_curves(const std::string& lights, const std::vector<std::string>& paths) {
+    Node root = test::sample();
+    const std::string json = R"({"KHR_lights_punctual":{"lights":[)" + lights + "]}}";
+    std::erase_if(root.children, [](const Node& leaf) { return leaf.id == FourCC("EXTN"); });
+    root.children.push_back(test::make_leaf(FourCC("EXTN"), std::as_bytes(std::span(json))));
+    static constexpr std::array kTimes{0.5f};
+    static constexpr std::array kValues{1.0f};
+    for (const std::string& path : paths) {
+        CurveView curve;
+        curve.path = path;
+        curve.keys = 1;
+        curve.times = kTimes;
+        curve.values = kValues;
+        at(root, "HEAD/OBJE/CYCL").children.push_back(test::make_leaf(FourCC("CURV"), write_curve(curve)));
+    }
+    return test::to_file(root);
+}
+
+TEST(MergeClips, PointsAtTheLightsOfTheSameNames) {
+    const std::string lights = "/extensions/KHR_lights_punctual/lights/";
+    const auto merged = [&](const std::string& here, const std::string& there, const std::string& path, Log& log) {
+        const auto file =
+            merge_clips(with_light_curves(here, {}), with_light_curves(there, {path}), SameName::number, log);
+        EXPECT_TRUE(file) << file.error().message;
+        const Loaded loaded(file ? *file : Buffer());
+        const auto& curves = loaded.document.objects.front().clips.back().curves;
+        return curves.empty() ? std::string() : std::string(curves.front().path);
+    };
+    Log log;
+    EXPECT_EQ(merged(R"({"name":"sun"},{"name":"lamp"})", R"({"name":"lamp"},{"name":"sun"})", lights + "0/color", log),
+              lights + "1/color");
+    EXPECT_EQ(merged("{},{}", "{},{}", lights + "1/color", log), lights + "1/color");
+    EXPECT_EQ(merged("{},{}", "{},{}", "/extras/lights/1", log), "/extras/lights/1");
+    for (const std::string& warning : log.warnings) EXPECT_EQ(warning.find("CURV"), std::string::npos) << warning;
+    for (const char* here : {R"({"name":"sun"},{"name":"moon"})", "{},{}", "{}"}) {
+        log.warnings.clear();
+        EXPECT_EQ(merged(here, R"({"name":"lamp"},{"name":"sun"})", lights + "0/color", log), "") << here;
+        EXPECT_EQ(log.warnings.at(0),
+                  "CURV \"\" is left out: it is not clear what " + lights + "0/color is in this file");
+    }
+}
+
 /// The sample with markers in its clip.
 Buffer marked() {
     Node root = test::sample();

@@ -64,6 +64,8 @@ ClipPlacer::ClipPlacer(const ClipFiles& files, std::vector<std::uint32_t> joints
       meshes_(std::move(meshes)),
       materials_(pair_names(names_of(head_materials(files.there)), names_of(head_materials(files.here)))),
       textures_(pair_names(names_of(files.there.document.textures), names_of(files.here.document.textures))),
+      lists_here_(files.here.document.extensions),
+      lists_there_(files.there.document.extensions),
       same_name_(same_name),
       log_(log),
       rewrite_(files.here.tree),
@@ -91,7 +93,33 @@ Result<TrackCounts, Problem> ClipPlacer::change(const ClipView& clip, const Trac
                                     " of that name here");
         },
         sending_);
+    for (const CurveView& curve : clip.curves) {
+        if (curve.kind == CurveTarget::nothing) point_here(curve);
+    }
     return counts;
+}
+
+/// A pointer into a list of HEAD's extensions, such as that of the lights, leads to the element of the same name here.
+void ClipPlacer::point_here(const CurveView& curve) {
+    const auto element_here = [&](std::string_view before, std::string_view after,
+                                  std::uint32_t element) -> std::optional<std::uint32_t> {
+        const std::vector<std::string>& there = lists_there_.list(before).names;
+        const extensions::NamedList& here = lists_here_.list(after);
+        const bool is_alike = there.size() == here.names.size() && there[element] == here.names[element];
+        if (is_alike) return element;
+        const auto found = here.first.find(there[element]);
+        return found == here.first.end() ? std::nullopt : std::optional(found->second);
+    };
+    const auto path = lists_there_.with_elements(curve.path, element_here);
+    if (path == curve.path) return;
+    if (!path) {
+        log_.warnings.push_back(name_of_leaf(files_.there.tree, curve.chunk) + " is left out: it is not clear what " +
+                                std::string(curve.path) + " is in this file");
+        return sending_.remove(curve.chunk);
+    }
+    CurveView pointed = curve;
+    pointed.path = *path;
+    sending_.replace(curve.chunk, write_curve(pointed));
 }
 
 void ClipPlacer::add_curve(const ClipView& clip, Bytes payload) {

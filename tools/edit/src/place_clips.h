@@ -5,6 +5,7 @@
 #include "rewrite.h"
 
 #include <bendy/edit/edit.h>
+#include <bendy/extensions/pointed_lists.h>
 #include <bendy/format/document.h>
 
 #include <cstddef>
@@ -57,10 +58,12 @@ public:
     Edited finish();
 
 private:
+    void point_here(const CurveView& curve);
     void put_bound();
 
     const ClipFiles& files_;
     std::vector<std::uint32_t> joints_, meshes_, materials_, textures_;  // numbers here, by number there
+    extensions::PointedLists lists_here_, lists_there_;
     NewNumbers numbers_;
     SameName same_name_;
     Log& log_;
