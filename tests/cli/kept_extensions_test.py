@@ -42,7 +42,8 @@ def character(path, version):
             "humanoid": {"humanBones": [{"bone": bone, "node": node[bone]} for bone in BONES]},
             "firstPerson": {"firstPersonBone": node["head"], "meshAnnotations": [{"mesh": 1}, {"mesh": 0}]},
             "blendShapeMaster": {"blendShapeGroups": [{"name": "A", "binds": [
-                {"mesh": 0, "index": 2, "weight": 100}, {"mesh": 2, "index": 1, "weight": 50}]}]},
+                {"mesh": 0, "index": 2, "weight": 100}, {"mesh": 2, "index": 1, "weight": 50}],
+                "materialValues": [{"materialName": "Skin", "propertyName": "_Color", "targetValue": [0, 0, 0, 1]}]}]},
             "secondaryAnimation": {
                 "boneGroups": [{"bones": [node["hair"]], "center": -1, "colliderGroups": [1, 0]}],
                 "colliderGroups": [{"node": node["hips"]}, {"node": node["head"]}]},
@@ -93,6 +94,8 @@ def named(root):
         said["bones"] = {bone["bone"]: name("nodes", bone["node"]) for bone in vrm["humanoid"]["humanBones"]}
         said["expression"] = [target(bind["mesh"], bind["index"]) for group in vrm["blendShapeMaster"]["blendShapeGroups"]
                               for bind in group["binds"]]
+        said["values"] = [value["materialName"] for group in vrm["blendShapeMaster"]["blendShapeGroups"]
+                          for value in group.get("materialValues", [])]
         said["meshes"] = [name("meshes", one["mesh"]) for one in vrm["firstPerson"]["meshAnnotations"]]
         said["springs"] = [([name("nodes", bone) for bone in group["bones"]], name("nodes", group["center"]),
                             [groups[number] for number in group["colliderGroups"]]) for group in second["boneGroups"]]
@@ -176,6 +179,12 @@ class Kept(Case):
         _, file = self.converted(1)
         self.assertEqual(self.edited(file, "--strip", "material:Skin")["colours"], ["Cloth"])
         self.assertEqual(self.edited(file, "--strip", "material:Cloth")["colours"], [])
+
+    def test_a_material_that_is_renamed(self):
+        _, file = self.converted(0)
+        now = self.edited(file, "--rename", "material:Skin=Fur", "--rename", "material:Cloth=Skin")
+        self.assertEqual([name for name, _ in now["textures"]], ["Fur", "Skin"])
+        self.assertEqual(now["values"], ["Fur"])
 
     def test_joints_that_stay_keep_their_roles(self):
         for version in (0, 1):

@@ -2,12 +2,14 @@
 
 #include "rewrite.h"
 
+#include <bendy/extensions/rename_materials.h>
 #include <bendy/format/text.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace bendy::edit {
@@ -66,6 +68,7 @@ public:
         }
         warn_of_duplicates(names);
         put(names);
+        if (what_.kind == Named::material) put_in_extensions(names);
         log_.done.push_back("renamed " + std::to_string(changed) + ' ' + std::string(kind_of(what_.kind)) +
                             (changed == 1                ? ""
                              : what_.kind == Named::mesh ? "es"
@@ -207,6 +210,22 @@ private:
                 rewrite_.prepend(things_[k].chunk, whole_leaf(FourCC("NAME"), as_byte_span(names[k])));
             }
         }
+    }
+
+    /// Puts the new names of materials into the extensions that say them; not that of several of which some keep it.
+    void put_in_extensions(const std::vector<std::string>& names) {
+        std::map<std::string, std::string, std::less<>> now;
+        std::set<std::string_view> unclear;
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            if (k >= source_.document.global_materials) break;  // those of joints come after those of HEAD
+            const auto [known, is_new] = now.try_emplace(std::string(things_[k].name), names[k]);
+            if (!is_new && known->second != names[k]) unclear.insert(things_[k].name);
+        }
+        std::erase_if(now, [&](const auto& pair) { return pair.first == pair.second || unclear.contains(pair.first); });
+        const std::uint32_t chunk = source_.tree.find(0, FourCC("EXTN"));
+        if (chunk == kNone) return;
+        const auto text = extensions::rename_materials(as_text(source_.tree.payload(chunk)), now);
+        if (text) rewrite_.replace(chunk, as_byte_span(*text));
     }
 
     [[nodiscard]] bool is_frame(const Thing& thing) const {
