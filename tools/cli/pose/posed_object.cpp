@@ -56,12 +56,22 @@ void put_raw(std::string& out, T value) {
     out.append(bytes.data(), bytes.size());
 }
 
+/// Many JSON readers take -0 for an integer, which has no sign.
+void put_json(std::string& out, float number) {
+    const bool is_negative_zero = number == 0.0f && std::signbit(number);
+    put(out, number);
+    if (is_negative_zero) out += ".0";
+}
+void put_json(std::string& out, std::uint32_t number) {
+    put(out, number);
+}
+
 template <class Number>
 void put_list(std::string& out, std::span<const Number> numbers) {
     out += '[';
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         if (i != 0) out += ',';
-        put(out, numbers[i]);
+        put_json(out, numbers[i]);
     }
     out += ']';
 }
@@ -77,7 +87,7 @@ std::string as_json(const std::string& text) {
 /// JSON cannot express infinities.
 void put_finite(std::string& out, float number) {
     if (std::isfinite(number)) {
-        put(out, number);
+        put_json(out, number);
     } else {
         out += "null";
     }

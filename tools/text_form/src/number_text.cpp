@@ -26,7 +26,9 @@ void append_as(std::string& out, Bytes bytes, std::uint64_t at) {
 void append_float(std::string& out, Bytes bytes, std::uint64_t at) {
     float value = 0.0f;
     copy_at(bytes, at, value);
-    if (std::isfinite(value)) {
+    if (value == 0.0f && std::signbit(value)) {
+        out += "-0.0";  // many JSON readers take -0 for an integer, which has no sign
+    } else if (std::isfinite(value)) {
         append_as<float>(out, bytes, at);
     } else if (std::isinf(value)) {
         out += value < 0.0f ? "\"-inf\"" : "\"inf\"";
