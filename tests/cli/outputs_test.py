@@ -19,6 +19,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
+from gltf_file import GltfFile  # noqa: E402
 from md2_file import md2_file  # noqa: E402
 from program import BENDY, SOURCE, WITHOUT_PICTURES, Case, main  # noqa: E402
 
@@ -287,7 +288,7 @@ class Foreign(OutputCase):
         length = struct.unpack_from("<I", data, 12)[0]
         document = json.loads(data[20 : 20 + length])
         assets = [{"version": "2.0", "generator": name} for name in
-                  ("maker 1 (beta)", "bendy 0.1", "bendy 0.1 (old)", "bendy 0.1 (source: x)", "(source: x)", "", "ü")]
+                  ("maker 1 (beta)", "bendy 0.1 (old)", "bendies 0.1", "bendy tools", "(source: x)", "", "ü")]
         assets += [{"version": "2.0"}, {"version": "2.0", "copyright": "me"},
                    {"copyright": "me", "generator": "maker", "version": "2.0"}]
         for asset in assets:
@@ -303,10 +304,25 @@ class Foreign(OutputCase):
             shown = json.loads(exported[20 : 20 + struct.unpack_from("<I", exported, 12)[0]])["asset"]
             self.assertRegex(shown["generator"], r"^bendy \d+\.\d+\.\d+ \(source")
             source = asset.get("generator", "unnamed")
-            self.assertIn("x" if source == "bendy 0.1 (source: x)" else source, shown["generator"])
+            self.assertIn(source, shown["generator"])
             self.done("convert", "-q", "b.glb", "-o", "c.bendy")
-            if asset.get("generator") != "bendy 0.1 (source: x)":  # what bendy's own export looks like
-                self.assertEqual((self.folder / "c.bendy").read_bytes(), (self.folder / "a.bendy").read_bytes(), asset)
+            self.assertEqual((self.folder / "c.bendy").read_bytes(), (self.folder / "a.bendy").read_bytes(), asset)
+
+    def test_however_often_and_by_whatever_version_it_names_itself_once(self):
+        version = self.bendy("--version").stdout.decode().split()[-1]
+        file = GltfFile(nodes=[{"name": "a"}], scenes=[{"nodes": [0]}])
+        for generator, wanted in (("maker", " (source: maker)"), ("bendy 0.2.0 (source: bendy 0.1.0 (source: maker (x)))", " (source: maker (x))"),
+                                  ("bendy 9.1-rc.2 (source unnamed)", " (source unnamed)"), ("bendy 0.1.0", ""),
+                                  ("bendy 0.2 (source: bendy 0.1 (source unnamed))", " (source unnamed)"),
+                                  ("bendy 0.2 (source: bendy 0.1)", ""), (None, " (source unnamed)")):
+            file.document["asset"] = {"version": "2.0", **({"generator": generator} if generator else {})}
+            file.write(self.folder / "0.gltf")
+            for turn in range(4):
+                self.done("convert", "-q", f"{turn}.gltf", "-o", f"{turn}.bendy")
+                self.done("export", "-q", f"{turn}.bendy", "-o", f"{turn + 1}.gltf")
+                asset = json.loads((self.folder / f"{turn + 1}.gltf").read_text())["asset"]
+                self.assertEqual(asset, {"version": "2.0", "generator": f"bendy {version}{wanted}"}, (generator, turn))
+            self.assertEqual((self.folder / "0.bendy").read_bytes(), (self.folder / "3.bendy").read_bytes())
 
     def refused(self, file, *arguments):
         """The error about a file, behind warnings."""

@@ -51,10 +51,11 @@ std::vector<Summary::TextureLine> list_textures(const Model& model) {
     for (const Texture& texture : model.textures()) {
         Summary::TextureLine& line = textures.emplace_back();
         line.name = texture.name;
-        for (const ImageView& image : texture.images) {
+        for (const ImageView& own : texture.images) {
+            const ImageView& image = own.same ? model.textures()[own.same->texture].images[own.same->image] : own;
             const auto type = static_cast<std::size_t>(image.media);
             line.images.push_back({std::string(kShownNames<MediaType>.at(type < kMediaTypes ? type : 0)),
-                                   image.bytes.size(), std::string(image.uri)});
+                                   own.bytes.size(), std::string(image.uri), own.same ? own.same->texture : kNone});
         }
     }
     return textures;
@@ -202,9 +203,14 @@ void add_surfaces(const Summary& summary, Lines& lines) {
     lines.add("materials", listed(summary.materials, grouped(summary.materials.size()),
                                   [](const Summary::Named& one, std::size_t k) { return label_of(one.name, k); }));
     lines.add("textures", listed(summary.textures, grouped(summary.textures.size()),
-                                 [](const Summary::TextureLine& texture, std::size_t k) {
+                                 [&](const Summary::TextureLine& texture, std::size_t k) {
                                      std::string text = label_of(texture.name, k);
                                      for (const Summary::ImageLine& image : texture.images) {
+                                         if (image.same != kNone) {
+                                             text += " the same image as " +
+                                                     label_of(summary.textures[image.same].name, image.same);
+                                             continue;
+                                         }
                                          text += image.link.empty() ? ' ' + image.type
                                                                     : " -> " + brief(std::string_view(image.link));
                                      }
@@ -280,6 +286,7 @@ void fill_texture(ordered_json& json, const Summary::TextureLine& texture) {
     for (const Summary::ImageLine& image : texture.images) {
         ordered_json one{{"type", image.type}, {"bytes", image.bytes}};
         if (!image.link.empty()) one["link"] = image.link;
+        if (image.same != kNone) one["sameAs"] = image.same;
         json["images"].push_back(std::move(one));
     }
 }

@@ -43,8 +43,9 @@ struct Summary {
     };
     struct ImageLine {
         std::string type;
-        std::uint64_t bytes = 0;  ///< in the file
-        std::string link;         ///< the URI of an image that is not in the file
+        std::uint64_t bytes = 0;     ///< in the file
+        std::string link;            ///< the URI of an image that is not in the file
+        std::uint32_t same = kNone;  ///< the texture that has the image, in the place of this one; kNone: none
     };
     struct TextureLine {
         std::string name;

@@ -132,6 +132,9 @@ Buffers::Buffers(const Json& root, const Container& container, NamedFiles& files
                 if (is_fallback(buffers[i]) && !files.exists(text, place + ".uri")) continue;
                 buffer.bytes = files.read(text, place + ".uri", length);
             }
+        } else if (const Json* chunk = find(buffers[i], "chunk"); chunk != nullptr && *chunk != 1) {
+            fail(place + ".chunk", "the buffer is in chunk " + chunk->dump() +
+                                       " of a file of glTF 2.1; only chunk 1, the first after the JSON, is read");
         } else if (i == 0 && container.has_bin) {
             buffer.bytes = container.bin;
         } else {

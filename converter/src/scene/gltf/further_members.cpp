@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -44,7 +46,8 @@ struct Inner {
 struct Shape {
     std::string_view known;  ///< names, space-separated
     std::span<const Inner> inner = {};
-    bool is_open = false;  ///< may have unlisted members: extensions without a shape
+    bool is_open = false;         ///< may have unlisted members: extensions without a shape
+    std::string_view draft = {};  ///< members that only glTF 2.1 has: KhronosGroup/glTF, specification/2.1/schema
 };
 
 constexpr Shape kPlain{""};
@@ -111,7 +114,7 @@ constexpr std::array kBufferExtensionsInner{Inner{"EXT_meshopt_compression", &kF
                                             Inner{"KHR_meshopt_compression", &kFallback}};
 constexpr Shape kBufferExtensions{"", kBufferExtensionsInner, true};
 constexpr std::array kBufferInner{Inner{"extensions", &kBufferExtensions}};
-constexpr Shape kBuffer{"uri byteLength", kBufferInner};
+constexpr Shape kBuffer{"uri byteLength", kBufferInner, false, "chunk"};
 
 constexpr Shape kPerspective{"aspectRatio yfov zfar znear extensions"};
 constexpr Shape kOrthographic{"xmag ymag zfar znear extensions"};
@@ -120,9 +123,16 @@ constexpr Shape kCamera{"type extensions", kCameraInner};
 
 constexpr Shape kRoot{
     "accessors animations asset buffers bufferViews cameras extensions extensionsRequired extensionsUsed extras images "
-    "materials meshes nodes samplers scene scenes skins textures"};
+    "materials meshes nodes samplers scene scenes skins textures",
+    {},
+    false,
+    "externalAssets files shapes"};
+constexpr Shape kAsset{"copyright extensions extras generator minVersion version", {}, false, "thumbnail"};
 constexpr Shape kScene{"name extras extensions nodes"};
-constexpr Shape kNode{"name extras extensions camera children matrix mesh rotation scale skin translation weights"};
+constexpr Shape kNode{"name extras extensions camera children matrix mesh rotation scale skin translation weights",
+                      {},
+                      false,
+                      "boundingVolume externalAsset"};
 constexpr Shape kImage{"uri mimeType bufferView extensions"};
 constexpr Shape kSampler{"magFilter minFilter wrapS wrapT extensions"};
 constexpr Shape kSkin{"inverseBindMatrices joints skeleton extensions"};
@@ -131,17 +141,17 @@ constexpr Shape kAnimation{"name extras extensions channels samplers"};
 constexpr Shape kAnimationSampler{"input interpolation output extensions"};
 
 /// In the order of Element.
-constexpr std::array kShapes{&kRoot,     &kScene,  &kNode,  &kMaterial,  &kTexture,   &kImage,   &kSampler,
-                             &kSkin,     &kCamera, &kMesh,  &kPrimitive, &kAnimation, &kChannel, &kAnimationSampler,
-                             &kAccessor, &kView,   &kBuffer};
-static_assert(kShapes.size() == static_cast<std::size_t>(Element::buffer) + 1);
+constexpr std::array kShapes{&kRoot,     &kScene,  &kNode,   &kMaterial,  &kTexture,   &kImage,   &kSampler,
+                             &kSkin,     &kCamera, &kMesh,   &kPrimitive, &kAnimation, &kChannel, &kAnimationSampler,
+                             &kAccessor, &kView,   &kBuffer, &kAsset};
+static_assert(kShapes.size() == static_cast<std::size_t>(Element::asset) + 1);
 
 const Shape& shape_of(Element element) {
     return *kShapes[static_cast<std::size_t>(element)];
 }
 
-bool is_known(const Shape& shape, std::string_view member) {
-    for (std::string_view names = shape.known; !names.empty();) {
+bool lists(std::string_view names, std::string_view member) {
+    while (!names.empty()) {
         const std::size_t end = std::min(names.find(' '), names.size());
         if (names.substr(0, end) == member) return true;
         names.remove_prefix(std::min(end + 1, names.size()));
@@ -164,7 +174,7 @@ Json collect(const Json& object, const Shape& shape) {
         const Shape* inner = inner_shape(shape, member.key());
         if (inner != nullptr && member->is_object()) {
             if (Json deeper = collect(*member, *inner); !deeper.empty()) further[member.key()] = std::move(deeper);
-        } else if (inner == nullptr && !shape.is_open && !is_known(shape, member.key())) {
+        } else if (inner == nullptr && !shape.is_open && !lists(shape.known, member.key())) {
             further[member.key()] = *member;
         }
     }
@@ -175,6 +185,16 @@ Json collect(const Json& object, const Shape& shape) {
 
 Json further_members(const Json& object, Element element) {
     return collect(object, shape_of(element));
+}
+
+std::vector<std::string> take_drafts(Json& object, Element element) {
+    std::vector<std::string> taken;
+    for (auto member = object.begin(); member != object.end();) {
+        const bool is_draft = lists(shape_of(element).draft, member.key());
+        if (is_draft) taken.push_back(member.key());
+        member = is_draft ? object.erase(member) : std::next(member);
+    }
+    return taken;
 }
 
 void lose_members(const Json& object, Element element, std::string_view nouns, const std::string& place,
@@ -223,7 +243,13 @@ public:
           is_image_said_(scene.images.size()) {}
 
     void run() {
-        scene_.source_more = text_of(further_members(root_, Element::root), {});
+        Json more = further_members(root_, Element::root);
+        if (const auto files = more.find("files"); files != more.end() && files->is_array()) {
+            for (Json& file : *files) {
+                if (file.is_object()) file.erase("bufferView");  // there are none
+            }
+        }
+        scene_.source_more = text_of(more, {});
         for (std::size_t joint = 0; joint < scene_.joints.size(); ++joint) {
             if (skeleton_.instance_of_joint[joint] == kNone) keep_node(joint);
         }
@@ -288,6 +314,8 @@ private:
     std::vector<bool> is_image_said_;
 };
 
+constexpr const char* kExternal = "external assets of glTF 2.1, which are not read,";
+
 class Reporter {
 public:
     Reporter(const Document& document, const Skeleton& skeleton) : document_(document), root_(document.json) {
@@ -295,6 +323,7 @@ public:
             used_.emplace(kind, std::vector<bool>(array_of(root_, kind).size()));
         for (std::size_t joint = 0; joint < skeleton.node_of_joint.size(); ++joint) mark_node(skeleton, joint);
         for (const Json& texture : array_of(root_, "textures")) mark("samplers", texture, "sampler");
+        for (const std::uint32_t node : skeleton.node_of_joint) nodes_.insert(node);
     }
 
     void run() {
@@ -302,13 +331,14 @@ public:
         add_unused("skins", "skins that no mesh of the scene uses");
         add_unused("cameras", "cameras that no node of the scene has");
         add_unused("samplers", "samplers that no texture uses");
+        add_external_assets();
         const Json& meshes = array_of(root_, "meshes");
         for (std::size_t i = 0; i < meshes.size(); ++i) {
             if (!used_["meshes"][i]) continue;
             const Json& primitives = array_of(meshes[i], "primitives");
             for (std::size_t p = 0; p < primitives.size(); ++p) {
-                lose_members(without_target_names(primitives[p]), Element::primitive, "primitives",
-                             at("meshes", i) + '.' + at("primitives", p), losses_);
+                lose_members(without_target_names(primitives[p], array_of(primitives[p], "targets").size()),
+                             Element::primitive, "primitives", at("meshes", i) + '.' + at("primitives", p), losses_);
             }
         }
         const Json& animations = array_of(root_, "animations");
@@ -346,6 +376,49 @@ private:
         }
     }
 
+    /// glTF 2.1: files that nodes place in the scene.
+    void add_external_assets() {
+        const Json& assets = list_of("externalAssets");
+        const Json& files = list_of("files");
+        std::vector<bool> is_placed(assets.size());
+        const auto call_asset = [&](std::size_t asset) {
+            const Json* file = assets[asset].is_object() ? find(assets[asset], "file") : nullptr;
+            const bool is_there = file != nullptr && file->is_number_unsigned() && *file < files.size();
+            const Json* uri = is_there && files[file->get<std::size_t>()].is_object()
+                                  ? find(files[file->get<std::size_t>()], "uri")
+                                  : nullptr;
+            const std::string name =
+                assets[asset].is_object() ? call(assets[asset], "externalAssets", asset) : at("externalAssets", asset);
+            return uri == nullptr || !uri->is_string() ? name
+                                                       : name + " (" + quote(uri->get_ref<const std::string&>()) + ')';
+        };
+        for (const std::uint32_t node : nodes_) {
+            const Json* asset = find(root_["nodes"][node], "externalAsset");
+            if (asset == nullptr) continue;
+            const bool is_there = asset->is_number_unsigned() && *asset < assets.size();
+            if (is_there) is_placed[asset->get<std::size_t>()] = true;
+            losses_.add(kExternal,
+                        (is_there ? call_asset(asset->get<std::size_t>()) : "externalAssets[" + asset->dump() + ']') +
+                            " at " + call(root_["nodes"][node], "nodes", node),
+                        at("nodes", node) + ".externalAsset");
+        }
+        for (std::size_t i = 0; i < assets.size(); ++i) {
+            if (!is_placed[i]) losses_.add(kExternal, call_asset(i), at("externalAssets", i));
+        }
+        for (std::size_t i = 0; i < files.size(); ++i) {
+            if (files[i].is_object() && files[i].contains("bufferView"))
+                losses_.add("the bytes of files of glTF 2.1 in buffer views", call(files[i], "files", i),
+                            at("files", i));
+        }
+    }
+
+    /// A list of the root that nothing has checked.
+    [[nodiscard]] const Json& list_of(const char* member) const {
+        static const Json none = Json::array();
+        const auto found = root_.find(member);
+        return found != root_.end() && found->is_array() ? *found : none;
+    }
+
     void lose_list(const Json& owner, const char* member, Element element, const char* nouns,
                    const std::string& place) {
         const Json& list = array_of(owner, member);
@@ -356,6 +429,7 @@ private:
     const Document& document_;
     const Json& root_;
     std::map<std::string, std::vector<bool>> used_;
+    std::set<std::uint32_t> nodes_;  ///< of the scene
     Losses losses_;
 };
 

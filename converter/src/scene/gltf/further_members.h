@@ -35,7 +35,7 @@ private:
 // Members of glTF's objects without a field in the Scene: extras and names of objects for which it holds none, and
 // members that the specification does not define.
 
-/// The object types of glTF 2.0.
+/// The object types of glTF 2.0, which have further members in 2.1, a draft.
 enum class Element : std::uint8_t {
     root,
     scene,
@@ -54,11 +54,15 @@ enum class Element : std::uint8_t {
     accessor,
     buffer_view,
     buffer,
+    asset,
 };
 
 /// The members of `object` that the Scene does not hold, in the object's structure; an empty object if there are none.
 /// The object's extensions are skipped, except for members that an interpreted extension does not define.
 Json further_members(const Json& object, Element element);
+
+/// Removes the members that only glTF 2.1 has from an object, and returns their names.
+std::vector<std::string> take_drafts(Json& object, Element element);
 
 /// Adds the result of further_members to the losses: `nouns` as `accessors`.
 void lose_members(const Json& object, Element element, std::string_view nouns, const std::string& place,

@@ -51,8 +51,13 @@ Scene import(std::vector<std::byte> bytes, ReadableFolders folders, const GltfOp
     keep_members(document, skeleton, scene);
     scene.source_extras = extras_text(root);
     Json asset = root["asset"];
-    restore_source_generator(asset);
-    scene.asset = asset.dump();
+    if (asset["version"] != "2.0") {
+        report.warn("glTF " + quote(asset["version"].get_ref<const std::string&>()) +
+                        " is read as glTF 2.0: what only the later version has is kept as JSON, not interpreted",
+                    "asset.version");
+    }
+    const bool is_ours = restore_source_generator(asset);
+    if (!is_ours || asset.size() > 1) scene.asset = asset.dump();
     return scene;
 }
 

@@ -152,6 +152,11 @@ private:
                     place_ + '.' + at("primitives", p) + ".extras.targetNames", other);
             }
         }
+        const bool has_all = std::none_of(names_.begin(), names_.end(), [](const auto& name) { return name.empty(); });
+        const Json* extras = find(json_, "extras");
+        extras_ = extras == nullptr || target_count_ == 0 || !has_all
+                      ? extras_text(json_)
+                      : extras_text(without_target_names({{"extras", *extras}}, target_count_));
     }
 
     void add_primitive(std::size_t p) {
@@ -206,7 +211,7 @@ private:
 
     void finish(Mesh& mesh) const {
         mesh.name = source_.name;
-        mesh.extras = extras_text(json_);
+        mesh.extras = extras_;
         if (const Json more = further_members(json_, Element::mesh); !more.empty()) mesh.more = more.dump();
         trim_influences(mesh);
         document_.budget.take(target_count_, sizeof(MorphTarget), place_);
@@ -221,6 +226,7 @@ private:
     bool skinned_;
     std::size_t target_count_ = 0;
     std::vector<std::string> names_;  ///< of the targets
+    std::string extras_;              ///< without the names, if an export writes them again from the targets
     std::map<MeshLayout, std::size_t> groups_;
     std::map<Source, Placed> placed_;
     std::vector<Template> templates_;

@@ -345,10 +345,10 @@ std::vector<std::string> target_names(const Json& owner, std::size_t count) {
     return names;
 }
 
-Json without_target_names(const Json& primitive) {
-    Json rest = primitive;
-    const Json* said = names_in(primitive);
-    if (said == nullptr || Json(target_names(primitive, array_of(primitive, "targets").size())) != *said) return rest;
+Json without_target_names(const Json& owner, std::size_t count) {
+    Json rest = owner;
+    const Json* said = names_in(owner);
+    if (said == nullptr || Json(target_names(owner, count)) != *said) return rest;
     rest["extras"].erase("targetNames");
     if (rest["extras"].empty()) rest.erase("extras");
     return rest;

@@ -36,7 +36,7 @@ Submesh read_submesh(const Document& document, const tinygltf::Primitive& primit
 /// none.
 std::vector<std::string> target_names(const Json& owner, std::size_t count);
 
-/// The primitive without the names that target_names returns, if it has no others.
-Json without_target_names(const Json& primitive);
+/// The mesh or primitive without the names that target_names returns, if it has no others.
+Json without_target_names(const Json& owner, std::size_t count);
 
 }  // namespace bendy::converter::gltf

@@ -28,19 +28,31 @@ void name_generator(Json& asset, std::string_view ours) {
     asset["generator"] = text;
 }
 
+/// Takes this program's part away, whichever version wrote it, and however many of them one after another.
+/// \return true if it wrote the file for a source without an asset, such as an X-file
 template <class Json>
-void restore_source_generator(Json& asset) {
-    if (!asset.is_object() || !asset.contains("generator") || !asset["generator"].is_string()) return;
-    const auto text = asset["generator"].template get<std::string>();
-    if (!text.starts_with(kOurName)) return;
-    const std::size_t version_end = text.find(' ', kOurName.size());
-    if (version_end == std::string::npos) return;
-    const std::string_view rest = std::string_view(text).substr(version_end);
-    if (rest == kFromUnnamed) {
-        asset.erase("generator");
-    } else if (rest.starts_with(kFromSource) && rest.ends_with(')')) {
-        asset["generator"] = std::string(rest.substr(kFromSource.size(), rest.size() - kFromSource.size() - 1));
+bool restore_source_generator(Json& asset) {
+    const auto generator = asset.is_object() ? asset.find("generator") : asset.end();
+    if (!asset.is_object() || generator == asset.end() || !generator->is_string()) return false;
+    const auto text = generator->template get<std::string>();
+    std::string_view rest = text;
+    const auto is_ours = [](std::string_view name) {
+        return name.starts_with(kOurName) && name.size() > kOurName.size() && name[kOurName.size()] >= '0' &&
+               name[kOurName.size()] <= '9';
+    };
+    while (is_ours(rest)) {
+        const std::size_t source = rest.find(kFromSource);
+        const bool is_alone = rest.find(' ', kOurName.size()) == std::string_view::npos;
+        if (is_alone || (source == std::string_view::npos && rest.ends_with(kFromUnnamed))) {
+            asset.erase(generator);
+            return is_alone;
+        }
+        if (source == std::string_view::npos || !rest.ends_with(')')) break;
+        rest.remove_prefix(source + kFromSource.size());
+        rest.remove_suffix(1);
     }
+    *generator = std::string(rest);
+    return false;
 }
 
 }  // namespace bendy::converter::gltf

@@ -28,14 +28,20 @@ namespace {
 
 using gltf_out::Buffer;
 
-/// The source's `asset` if it is one of glTF 2.0, otherwise ours; in both, the generator names this program.
+/// The source's `asset` if it is one of glTF 2, as one of 2.0, otherwise ours; in both, the generator names this
+/// program.
 Json write_asset(const Scene& scene, Report& report) {
     constexpr std::string_view kGenerator = "bendy " BENDY_VERSION;
     Json ours{{"version", "2.0"}, {"generator", kGenerator}};
     if (scene.asset.empty()) return ours;
     try {
         auto asset = parse_json_text<Json>(scene.asset, report);
-        if (asset.is_object() && asset.contains("version") && asset["version"] == "2.0") {
+        const auto version = asset.is_object() ? asset.find("version") : asset.end();
+        if (asset.is_object() && version != asset.end() && version->is_string() &&
+            version->get_ref<const std::string&>().starts_with("2.")) {
+            *version = "2.0";
+            asset.erase("minVersion");  // no later than that
+            gltf_out::leave_out_drafts(asset, gltf::Element::asset, "asset", report);
             gltf::name_generator(asset, kGenerator);
             return asset;
         }

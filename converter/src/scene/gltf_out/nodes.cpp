@@ -69,8 +69,15 @@ Json read_members(const std::string& more, const std::string& place, Report& rep
     return Json::object();
 }
 
+void leave_out_drafts(Json& members, gltf::Element element, const std::string& place, Report& report) {
+    for (const std::string& name : gltf::take_drafts(members, element))
+        report.warn("left out, because only glTF 2.1 has it: " + name, place);
+}
+
 void add_members(Json& object, const Json& more, gltf::Element element, const std::string& place, Report& report) {
-    merge(object, gltf::further_members(more, element), place, report);
+    Json members = gltf::further_members(more, element);
+    leave_out_drafts(members, element, place, report);
+    merge(object, members, place, report);
 }
 
 namespace {

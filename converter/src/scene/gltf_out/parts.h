@@ -23,8 +23,12 @@ namespace bendy::converter::gltf_out {
 Json read_members(const std::string& more, const std::string& place, Report& report);
 
 /// Adds the further members of an object: extras, and members that the specification does not define, also nested ones.
-/// Existing members stay; a texture that has become unused, or an interpreted extension, is not created.
+/// Existing members stay; a texture that has become unused, or an interpreted extension, is not created. Members that
+/// only glTF 2.1 has are left out.
 void add_members(Json& object, const Json& more, gltf::Element element, const std::string& place, Report& report);
+
+/// Removes the members that only glTF 2.1 has, with warnings.
+void leave_out_drafts(Json& members, gltf::Element element, const std::string& place, Report& report);
 
 /// Adds the author's JSON as a member of `object`; text that is not JSON is reported.
 void add_extras(Json& object, const std::string& extras, const std::string& place, Report& report);
