@@ -70,7 +70,6 @@ FOREIGN = {
     "picture.bvh": (b"\x89PNG\r\n\x1a\n" + bytes(40), "a picture", "the model that uses it"),
     "rig.json": (b'{"bendy_rig": 1}', "a rig file", "--rig FILE"),
     "rig.bendy": (b'{"bendy_rig": 1}', "a rig file", "--rig FILE"),
-    "nothing.x": (b"", "an empty file", "again"),
     "model.zip": (b"PK\3\4" + bytes(80), "a ZIP archive", "unpack it"),
     "a.ma": (b"//Maya ASCII 2020 scene\n", "a Maya file", "program that made it"),
 }
@@ -149,6 +148,16 @@ class FileKinds(unittest.TestCase):
                 said = result.stderr.partition("\n")[0].partition(": is ")[2]
                 self.refused(command, result, f"{name}: is {said}")
                 self.assertTrue(said.startswith(f"{kind}, which bendy does not read: "), said)
+
+    def test_an_empty_source(self):
+        for name in ("nothing.glb", "nothing.x", "nothing.bvh"):
+            (self.folder / name).write_bytes(b"")
+            self.addCleanup((self.folder / name).unlink)
+            for command in (["convert", name, "-o", "OUT.bendy"], ["pose", name], ["inspect", name]):
+                result = self.bendy(*command)
+                self.assertEqual((result.returncode, result.stderr), (1, f"bendy: error: {name}: is empty: copy or download it again\n"))
+            result = self.bendy("validate", name)
+            self.assertEqual((result.returncode, result.stdout), (1, f"{name}: is empty: copy or download it again\n"))
 
     def test_text_of_a_bendy_file(self):
         for command, _, result in self.calls("good.json"):

@@ -85,7 +85,7 @@ TEST(Importers, WhatIsNoModelIsNamed) {
     EXPECT_EQ(kind_of("[1]"), "a JSON file without a member of glTF");
     EXPECT_EQ(kind_of(R"({"accessors": [{"name": "bendy_rig"}]})"), "a glTF file");
     EXPECT_EQ(kind_of(R"({"scenes": [{"extras": {"bendy_rig": 1}}], "asset": {}})"), "a glTF file");
-    EXPECT_EQ(kind_of(""), "an empty file");
+    EXPECT_EQ(why_not_convertible(Bytes(), "fox.bvh"), "is empty: copy or download it again");
     EXPECT_EQ(kind_of("PK\3\4"), "a ZIP archive");
     EXPECT_EQ(kind_of("\x1f\x8b\x08"), "a gzip archive");
     EXPECT_EQ(kind_of("# made by hand\nmtllib a.mtl\nv 1 2 3\n"), "an OBJ file");

@@ -147,7 +147,8 @@ void run(const ValidateArguments& arguments) {
         // A file named .bendy is validated as a bendy file, whatever it contains.
         const bool is_source = mapped && file.extension() != ".bendy" &&
                                converter::is_converted(mapped->bytes(), file) &&
-                               converter::why_not_convertible(mapped->bytes(), file).empty();
+                               (mapped->bytes().empty() ||  // which the conversion says
+                                converter::why_not_convertible(mapped->bytes(), file).empty());
         const Verdict verdict = is_source ? validate_source(file, std::move(*mapped), arguments.root, arguments.json)
                                           : validate_bendy(file, mapped, arguments.json);
         all_good = all_good && verdict.is_valid;

@@ -141,7 +141,6 @@ constexpr FileKind kHtmlPage{"an HTML page", std::nullopt, kDownload};
 constexpr FileKind kLfsPointer{"a Git LFS pointer", std::nullopt, "fetch the file that it stands for: git lfs pull"};
 constexpr FileKind kAnnexPointer{"a git-annex pointer", std::nullopt,
                                  "fetch the file that it stands for: git annex get"};
-constexpr FileKind kEmptyFile{"an empty file", std::nullopt, "copy or download it again"};
 constexpr FileKind kXmlFile{"an XML file", std::nullopt, kOtherTool};
 constexpr FileKind kRigFile{"a rig file", std::nullopt, "give it with a model: bendy convert MODEL --rig FILE"};
 constexpr FileKind kJsonFile{"a JSON file without a member of glTF", std::nullopt, kOtherTool};
@@ -364,7 +363,6 @@ std::optional<FileKind> find_stand_in(Bytes bytes) {
 }
 
 std::optional<FileKind> find_file_kind(Bytes bytes, const std::filesystem::path& name) {
-    if (bytes.empty()) return kEmptyFile;
     const std::string_view text = as_text(bytes).substr(0, kKindBytes);
     for (const Importer& importer : importers()) {
         if (!importer.signature.empty() && text.starts_with(importer.signature)) return kind_of(importer);
@@ -452,11 +450,12 @@ std::string why_not_bendy(const FileKind& kind, const std::filesystem::path& fil
 
 std::string why_not_convertible(const std::filesystem::path& file) {
     if (std::string why = why_not_a_file(file); !why.empty()) return why;
-    const auto kind = find_file_kind(file);
-    return kind && !kind->format ? why_not_bendy(*kind, file) : std::string();
+    const auto beginning = read_beginning(file);
+    return beginning ? why_not_convertible(as_byte_span(*beginning), file) : std::string();
 }
 
 std::string why_not_convertible(Bytes bytes, const std::filesystem::path& name) {
+    if (bytes.empty()) return "is empty: copy or download it again";
     const auto kind = find_file_kind(bytes, name);
     return kind && !kind->format ? why_not_bendy(*kind, name) : std::string();
 }
