@@ -121,5 +121,54 @@ TEST(Evaluate, AgreesWithTheRuntimeOnTheExamples) {
     }
 }
 
+TEST(Evaluate, FollowsTheJointsThatAreNeeded) {
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+        const Scene scene = test::random_scene(seed);
+        for (const Clip& clip : scene.clips) {
+            ClipEvaluator all(scene, clip);
+            ClipEvaluator some(scene, clip);
+            std::vector<bool> needed(scene.joints.size());
+            for (std::size_t joint = seed % 3; joint < needed.size(); joint += 3) needed[joint] = true;
+            EvaluatedPose right;
+            EvaluatedPose found;
+            some.follow(some.moved(), needed, found);
+            for (const double seconds : {0.0, 0.31, 1.7}) {
+                all.at(seconds, right);
+                some.at(seconds, found);
+                for (std::size_t joint = 0; joint < needed.size(); ++joint) {
+                    const std::uint32_t carrier = some.carriers()[joint];
+                    glm::dmat4 place = some.to_carriers()[joint];
+                    if (carrier != kNone) place = found.joints[carrier] * place;
+                    for (int c = 0; c < 4; ++c) {
+                        EXPECT_LT(glm::distance(place[c], right.joints[joint][c]), 1e-12);
+                        if (needed[joint]) EXPECT_LT(glm::distance(found.joints[joint][c], place[c]), 1e-12);
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(Evaluate, JointsThatNothingNeedsCostNothing) {
+    Scene scene;
+    scene.joints.resize(1000);
+    for (std::uint32_t joint = 1; joint < 1000; ++joint) scene.joints[joint].parent = joint - 1;
+    Clip& clip = scene.clips.emplace_back();
+    for (const std::uint32_t joint : {0u, 700u}) {
+        Track& track = clip.tracks.emplace_back();
+        track.target = joint;
+        track.path = TrackPath::translation;
+        track.components = 3;
+        track.times = {0.0f, 1.0f};
+        track.values = {0, 0, 0, 1, 0, 0};
+    }
+    ClipEvaluator evaluator(scene, clip);
+    EvaluatedPose pose;
+    evaluator.follow(evaluator.moved(), std::vector<bool>(1000), pose);
+    EXPECT_EQ(evaluator.computed(), 2u);
+    evaluator.at(1.0, pose);
+    EXPECT_EQ(pose.joints[700][3].x, 2.0);
+}
+
 }  // namespace
 }  // namespace bendy::converter::evaluate_test

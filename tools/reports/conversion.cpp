@@ -53,6 +53,7 @@ Json describe_compact(const converter::CompactReport& report) {
               {"place", report.place},        {"height", report.height},
               {"exactBytes", exact},          {"compactBytes", compact},
               {"kinds", std::move(kinds)}};
+    if (report.lod_bytes) json["lodBytes"] = *report.lod_bytes;
     if (report.curves != 0) {
         json["curves"] = {
             {"count", report.curves}, {"packed", report.packed_curves}, {"largestError", report.curve_error}};

@@ -1,5 +1,6 @@
 #include "optimise/measure_error.h"
 
+#include "optimise/carried_points.h"
 #include "optimise/posable_mesh.h"
 #include "optimise/sample_limits.h"
 #include "scene/evaluate.h"
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -438,6 +440,14 @@ public:
         plans_ = std::move(plans);
         loose_ = loose_joints(exact);
         points_ = points_of_joints(exact);
+        needed_.resize(exact.joints.size());
+        for (const PairPlan& plan : *plans_) {
+            for (const MeshShape* shape : {&plan.exact, &plan.decoded}) {
+                for (const std::uint32_t joint : shape->joints()) {
+                    if (joint != kNone) needed_[joint] = true;
+                }
+            }
+        }
     }
 
     [[nodiscard]] bool is_possible() const {
@@ -447,6 +457,8 @@ public:
     void measure_rest() {
         evaluate_rest(exact_, exact_pose_);
         evaluate_rest(decoded_, decoded_pose_);
+        place_points([](std::uint32_t joint) { return joint; },
+                     [](std::uint32_t, const glm::dvec3& point) { return std::pair(point, point); });
         measure(kNone, 0.0);
     }
 
@@ -465,9 +477,39 @@ public:
         worst_ = {};
         worst_.metres = std::nextafter(known, 0.0);  // an equal error counts: the result does not depend on the order
         for (MeshPair& pair : pairs_) pair.forget_pose();
+        std::vector<std::uint32_t> moved;
+        std::set_union(exact_clip_->moved().begin(), exact_clip_->moved().end(), decoded_clip_->moved().begin(),
+                       decoded_clip_->moved().end(), std::back_inserter(moved));
+        exact_clip_->follow(moved, needed_, exact_pose_);
+        decoded_clip_->follow(moved, needed_, decoded_pose_);
+        place_points([&](std::uint32_t joint) { return exact_clip_->carriers()[joint]; },
+                     [&](std::uint32_t joint, const glm::dvec3& point) {
+                         const glm::dvec4 at(point, 1.0);
+                         return std::pair(glm::dvec3(exact_clip_->to_carriers()[joint] * at),
+                                          glm::dvec3(decoded_clip_->to_carriers()[joint] * at));
+                     });
     }
 
 private:
+    /// Fills `origins_` and `shells_`.
+    /// \param carrier_of  of a joint
+    /// \param places_of   of a joint's point in the carrier's space, in both scenes
+    template <class CarrierOf, class PlacesOf>
+    void place_points(const CarrierOf& carrier_of, const PlacesOf& places_of) {
+        const auto add = [&](CarriedPoints& points, std::uint32_t joint, const glm::dvec3& point) {
+            const auto [exact, decoded] = places_of(joint, point);
+            points.add(joint, carrier_of(joint), exact, decoded);
+        };
+        for (CarriedPoints* points : {&origins_, &shells_}) points->clear();
+        for (const std::uint32_t joint : loose_) {
+            for (const glm::dvec3& point : points_) add(origins_, joint, point);
+        }
+        for (std::uint32_t joint = 0; joint < shell_.size(); ++joint) {
+            for (const glm::dvec3& point : shell_[joint]) add(shells_, joint, point);
+        }
+        for (CarriedPoints* points : {&origins_, &shells_}) points->build();
+    }
+
     void measure(std::uint32_t clip, double seconds) {
         bool has_risen = false;
         for (std::uint32_t mesh = 0; mesh < pairs_.size(); ++mesh) {
@@ -475,42 +517,23 @@ private:
             worst_.joint = kNone;
             has_risen = true;
         }
-        for (const std::uint32_t joint : loose_) {
-            const glm::dmat4 difference = exact_pose_.joints[joint] - decoded_pose_.joints[joint];
-            double error = 0.0;
-            for (const glm::dvec3& point : points_)
-                raise(error, glm::length(glm::dvec3(difference * glm::dvec4(point, 1.0))));
-            if (error <= worst_.metres) continue;
-            worst_.metres = or_infinite(error);
-            worst_.mesh = worst_.vertex = kNone;
-            worst_.joint = joint;
-            has_risen = true;
-        }
-        if (measure_shell()) has_risen = true;
+        has_risen = measure_points(origins_, 0.0) || has_risen;
+        has_risen = measure_points(shells_, limit_) || has_risen;
         if (!has_risen) return;
         worst_.clip = clip;
         worst_.seconds = seconds;
     }
 
-    /// Updates `worst_` if a point of the shell is above the limit and worse.
-    bool measure_shell() {
+    /// Updates `worst_` if a point is above the limit and worse.
+    bool measure_points(CarriedPoints& points, double limit) {
         bool has_risen = false;
-        const double most = std::max(limit_, worst_.metres);
-        for (std::uint32_t joint = 0; joint < shell_.size(); ++joint) {
-            const glm::dmat4 difference = exact_pose_.joints[joint] - decoded_pose_.joints[joint];
-            const double turned = glm::length(difference[0]) + glm::length(difference[1]) + glm::length(difference[2]);
-            const double origin = glm::length(glm::dvec3(difference[3]));
-            for (const glm::dvec3& point : shell_[joint]) {
-                // Each coordinate is at most the point's length.
-                if (origin + turned * glm::length(point) <= most) continue;
-                const double error = or_infinite(glm::length(glm::dvec3(difference * glm::dvec4(point, 1.0))));
-                if (error <= std::max(limit_, worst_.metres)) continue;
-                worst_.metres = error;
-                worst_.mesh = worst_.vertex = kNone;
-                worst_.joint = joint;
-                has_risen = true;
-            }
-        }
+        double most = std::max(limit, worst_.metres);
+        points.visit_farther(exact_pose_, decoded_pose_, most, [&](std::uint32_t joint, double metres) {
+            most = worst_.metres = or_infinite(metres);
+            worst_.mesh = worst_.vertex = kNone;
+            worst_.joint = joint;
+            has_risen = true;
+        });
         return has_risen;
     }
 
@@ -520,6 +543,8 @@ private:
     std::vector<MeshPair> pairs_;
     std::vector<std::uint32_t> loose_;
     std::vector<glm::dvec3> points_;  // per loose joint, see points_of_joints
+    std::vector<bool> needed_;        // per joint: a mesh needs its place
+    CarriedPoints origins_, shells_;  // of loose joints, and of `shell_`
     std::span<const std::vector<glm::dvec3>> shell_;
     double limit_;  // metres, for the shell
     std::uint32_t clip_ = kNone;

@@ -291,7 +291,38 @@ void ClipEvaluator::at(double seconds, EvaluatedPose& pose) {
         const Placement& at = placements_[joint];
         locals_[joint] = to_matrix(at.translation, at.rotation, at.scale, glm::dvec3(scene_.joints[joint].rest.shear));
     }
-    to_model_space(scene_, locals_, pose);
+    if (!follows_) return to_model_space(scene_, locals_, pose);
+    for (const Step& step : steps_) {
+        glm::dmat4& place = pose.joints[step.joint];
+        place = locals_[step.joint];
+        if (step.skips_parent) place = product(to_carriers_[scene_.joints[step.joint].parent], place);
+        if (step.above != kNone) place = product(pose.joints[step.above], place);
+    }
+}
+
+void ClipEvaluator::follow(std::span<const std::uint32_t> moved, const std::vector<bool>& needed, EvaluatedPose& pose) {
+    follows_ = true;
+    const std::size_t joints = locals_.size();
+    carriers_.assign(joints, kNone);
+    for (const std::uint32_t joint : moved) carriers_[joint] = joint;
+    to_carriers_.assign(joints, glm::dmat4(1.0));
+    pose.joints.resize(joints);
+    steps_.clear();
+    std::vector<bool> is_known(joints);  // the pose has its place
+    for (std::uint32_t joint = 0; joint < joints; ++joint) {
+        const std::uint32_t parent = scene_.joints[joint].parent;
+        if (carriers_[joint] == kNone) {
+            if (parent != kNone) carriers_[joint] = carriers_[parent];
+            to_carriers_[joint] = parent == kNone ? locals_[joint] : product(to_carriers_[parent], locals_[joint]);
+        }
+        is_known[joint] = carriers_[joint] == kNone || carriers_[joint] == joint || needed[joint];
+        if (carriers_[joint] == kNone) {
+            pose.joints[joint] = to_carriers_[joint];
+        } else if (is_known[joint]) {
+            const bool skips = parent != kNone && !is_known[parent];
+            steps_.push_back({joint, skips ? carriers_[parent] : parent, skips});
+        }
+    }
 }
 
 void evaluate(const Scene& scene, const Clip& clip, double seconds, EvaluatedPose& pose) {

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace bendy::converter {
@@ -52,6 +53,21 @@ public:
     ClipEvaluator(const Scene& scene, const Clip& clip);
     void at(double seconds, EvaluatedPose& pose);
 
+    /// The joints that tracks move, ascending.
+    [[nodiscard]] const std::vector<std::uint32_t>& moved() const { return moved_; }
+    /// From now on, `at` computes only the places of some joints: of those that move and of those that are needed. The
+    /// others have a constant place relative to their carrier, the nearest joint above them that moves.
+    /// \param moved   the joints that count as moving: at least those of moved()
+    /// \param needed  per joint
+    /// \param pose    the one that `at` will be called with: receives the places of joints without a carrier
+    void follow(std::span<const std::uint32_t> moved, const std::vector<bool>& needed, EvaluatedPose& pose);
+    /// After `follow`, per joint: itself if it moves, kNone if nothing moves it.
+    [[nodiscard]] const std::vector<std::uint32_t>& carriers() const { return carriers_; }
+    /// After `follow`, per joint: from its space to that of its carrier; to model space if it has none.
+    [[nodiscard]] const std::vector<glm::dmat4>& to_carriers() const { return to_carriers_; }
+    /// After `follow`, the number of joints whose places `at` computes.
+    [[nodiscard]] std::size_t computed() const { return steps_.size(); }
+
 private:
     struct Placement {
         glm::dvec3 translation;
@@ -65,6 +81,13 @@ private:
         Arc arc{};
     };
 
+    /// A joint whose place is that of `above`, which comes before it, times the way to its parent and its own matrix.
+    struct Step {
+        std::uint32_t joint = 0;
+        std::uint32_t above = kNone;
+        bool skips_parent = false;  // `above` is the parent's carrier
+    };
+
     void set(const Track& track, EvaluatedPose& pose);
 
     const Scene& scene_;
@@ -74,6 +97,10 @@ private:
     std::vector<Moving> moving_;
     std::vector<std::uint32_t> moved_;  // the joints of those tracks, each once
     std::vector<double> value_;
+    bool follows_ = false;
+    std::vector<std::uint32_t> carriers_;  // per joint
+    std::vector<glm::dmat4> to_carriers_;  // per joint
+    std::vector<Step> steps_;
 };
 
 /// One track's value at a time: `components` numbers. Linear rotations follow the shortest great arc, cubic ones are

@@ -12,6 +12,8 @@
 
 namespace bendy::converter {
 
+inline constexpr std::string_view kNotEnoughMemory = "not enough memory";
+
 /// Thrown by the readers inside this folder on bad input; the public functions catch it and return the error.
 struct Failure {
     ImportError error;
@@ -41,7 +43,7 @@ Result<T, ImportError> without_throwing(const Work& work) {
     } catch (const Failure& failure) {
         return failure.error;
     } catch (const std::bad_alloc&) {
-        return ImportError{{}, "not enough memory"};
+        return ImportError{{}, std::string(kNotEnoughMemory)};
     } catch (const std::exception& error) {
         return ImportError{{}, std::string("unexpected: ") + error.what()};
     }

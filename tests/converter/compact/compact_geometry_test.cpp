@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 namespace bendy::converter::compact_geometry_test {
@@ -256,6 +257,34 @@ TEST(CompactGeometry, LinesPointsAndEmptyMeshes) {
     const auto bytes = compact_file(scene, 1e-3, geometry);
     EXPECT_TRUE(validate(bytes).empty());
     EXPECT_EQ(skinned(bytes, 0.5f).size(), scene.meshes[0].positions.size());
+}
+
+TEST(CompactGeometry, TrianglesAtACrowdedVertexKeepTheirOrder) {
+    // A cone of very many triangles beside a strip of few: what orders them would take the square of their number.
+    constexpr std::uint32_t kCone = 2000;
+    Mesh mesh;
+    mesh.joint = 0;
+    mesh.positions.resize(kCone + 6);
+    for (std::uint32_t k = 0; k < mesh.positions.size(); ++k) mesh.positions[k] = {static_cast<float>(k), 0.0f, 1.0f};
+    std::vector<std::uint32_t> indices{kCone + 3, kCone + 4, kCone + 5};
+    for (std::uint32_t k = 0; k < kCone; ++k) indices.insert(indices.end(), {0, 1 + k, 1 + (k + 1) % kCone});
+    mesh.submeshes.push_back({Topology::triangles, kNone, indices});
+    CompactMesh compact;
+    compact.vertex_of.resize(mesh.positions.size());
+    std::iota(compact.vertex_of.begin(), compact.vertex_of.end(), 0u);
+    order_for_codecs(mesh, compact, {});
+    ASSERT_EQ(mesh.submeshes.size(), 1u);
+    const std::vector<std::uint32_t>& after = mesh.submeshes[0].indices;
+    ASSERT_EQ(after.size(), indices.size());
+    for (std::size_t at = 0; at < after.size(); at += 3) {  // which corner is the first is the codec's matter
+        std::vector<std::uint32_t> here(after.begin() + static_cast<std::ptrdiff_t>(at),
+                                        after.begin() + static_cast<std::ptrdiff_t>(at) + 3);
+        std::vector<std::uint32_t> there;
+        for (std::size_t k = at; k < at + 3; ++k) there.push_back(compact.vertex_of[indices[k]]);
+        std::sort(here.begin(), here.end());
+        std::sort(there.begin(), there.end());
+        ASSERT_EQ(here, there);
+    }
 }
 
 TEST(CompactGeometry, TheSameSceneGivesTheSameBytes) {

@@ -141,15 +141,33 @@ TEST(GltfAccessor, LyingCountsAreRefusedBeforeAnythingIsAllocated) {
     }
     Gltf implied = make_triangle();
     implied.json["accessors"][0].erase("bufferView");
-    implied.json["accessors"][0]["count"] = 16777217;
+    implied.json["accessors"][0]["count"] = 1'000'000;
     EXPECT_EQ(implied.import().message(),
-              "accessors[0]: 16777217 elements without stored data, at most 16777216 are accepted");
+              "accessors[0]: 1000000 elements without stored data, at most 262144 are accepted");
+}
+
+TEST(GltfAccessor, ZerosWithoutDataMayBeAsManyAsTheFileHasBytes) {
+    constexpr std::size_t kVertices = 300'000;
+    Gltf stored;  // with a target that moves nothing, as exporters write it
+    stored.json["accessors"].push_back({{"componentType", 5126}, {"count", kVertices}, {"type", "VEC3"}});
+    const std::size_t positions = stored.add_accessor<float>(std::vector<float>(kVertices * 3), "VEC3");
+    stored.add_mesh({{"POSITION", positions}}, {{"mode", 0}, {"targets", Json::array({{{"POSITION", 0}}})}});
+    stored.add_node({{"mesh", 0}});
+    EXPECT_EQ(stored.import().message(), "no error");
+    Gltf sparse = make_triangle();
+    make_sparse(sparse, 0, {3}, {1, 2, 3});
+    sparse.json["accessors"][0].erase("bufferView");
+    sparse.json["accessors"][0]["count"] = 262'145;
+    EXPECT_EQ(sparse.import().message(), "no error");
+    sparse.json["accessors"][0]["count"] = 262'146;
+    EXPECT_EQ(sparse.import().message(),
+              "accessors[0]: 262145 elements without stored data, at most 262144 are accepted");
 }
 
 TEST(GltfAccessor, SmallFilesCannotDecodeToAnySize) {
     Gltf gltf = make_triangle();
     gltf.json["accessors"][0].erase("bufferView");
-    gltf.json["accessors"][0]["count"] = 16777216;
+    gltf.json["accessors"][0]["count"] = 262144;
     for (int i = 0; i < 100; ++i) gltf.primitive()["attributes"]["_A" + std::to_string(i)] = 0;
     EXPECT_EQ(gltf.import().message(), "the decoded data would be implausibly large");
 }

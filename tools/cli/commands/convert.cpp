@@ -18,6 +18,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <iomanip>
 #include <map>
@@ -55,6 +57,12 @@ void print_compact(const converter::CompactReport& report, std::ostream& out) {
             print_line(kind_in_words(report.compact[k].kind), report.exact[k].bytes, report.compact[k].bytes);
     }
     print_line("total", before, after);
+    if (report.lod_bytes) {
+        const std::int64_t bytes = *report.lod_bytes;
+        out << "  levels         cost " << (bytes < 0 ? "-" : "")
+            << grouped(static_cast<std::uint64_t>(std::abs(bytes)))
+            << " of these bytes in all: their order of vertices compresses less\n";
+    }
     constexpr double kMillimetres = 1e3;
     out << std::setprecision(3) << "  error          at most " << report.max_error * kMillimetres
         << " mm; worst measured " << report.measured_error * kMillimetres << " mm";

@@ -193,6 +193,8 @@ public:
             const auto done = what_.work == ClipWork::copy ? copy(number) : change_one(number);
             if (!done) return Problem{"clip " + quoted(names_[number]) + ": " + done.error().message};
         }
+        if (unchanged_.size() == chosen.size()) return Problem{unchanged_.front()};
+        log_.warnings.insert(log_.warnings.end(), unchanged_.begin(), unchanged_.end());
         return finish(rewrite_);
     }
 
@@ -329,11 +331,23 @@ private:
         for (const ClipTrack& track : clip.tracks) numbers += track.components * times.size();
         if (numbers > (1u << 28u))
             return Problem{"it would have " + text_of(static_cast<double>(numbers)) + " numbers"};
+        bool is_changed = false;
         clip.change_keys([&](KeyTrack& track) {
             before += track.times.size();
-            resample(track, times);
+            is_changed = resample(track, times) || is_changed;
             after += track.times.size();
         });
+        if (!is_changed) {
+            unchanged_.push_back("clip " + quoted(clip.view->name) + " cannot be resampled: " +
+                                 (before != 0          ? "its tracks step, or have one key each"
+                                  : clip.plays.empty() ? "it has no keys"
+                                                       : "it plays stored frames, which have a rate of their own"));
+            return {};
+        }
+        if (!clip.plays.empty()) {
+            log_.warnings.push_back("clip " + quoted(clip.view->name) +
+                                    ": its stored frames keep their rate; only its keys are resampled");
+        }
         log_.done.push_back("resampled clip " + quoted(clip.view->name) + " to " + text_of(what_.rate) +
                             " keys per second: " + std::to_string(after) + " keys instead of " +
                             std::to_string(before));
@@ -414,6 +428,7 @@ private:
     std::vector<std::string_view> names_;
     std::set<std::string, std::less<>> taken_;
     std::map<std::size_t, Mirror> mirrors_;  // by object
+    std::vector<std::string> unchanged_;     // why, for each clip that stays as it is
 };
 
 }  // namespace

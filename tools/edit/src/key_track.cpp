@@ -209,8 +209,8 @@ bool cut(KeyTrack& track, float from, float to) {
     return true;
 }
 
-void resample(KeyTrack& track, std::span<const float> times) {
-    if (track.times.size() == 1 || track.interpolation == Interpolation::step) return;
+bool resample(KeyTrack& track, std::span<const float> times) {
+    if (track.times.size() == 1 || track.interpolation == Interpolation::step) return false;
     Row value(track.components);
     std::vector<float> values;
     values.reserve(times.size() * track.components);
@@ -222,6 +222,7 @@ void resample(KeyTrack& track, std::span<const float> times) {
     track.interpolation = Interpolation::linear;
     track.times.assign(times.begin(), times.end());
     track.values = std::move(values);
+    return true;
 }
 
 void close_loop(KeyTrack& track, float start, float from, float to) {

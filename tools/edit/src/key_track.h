@@ -41,8 +41,9 @@ void insert_key(KeyTrack& track, float seconds);
 /// time between, except that times are rounded. Returns false if two keys would have the same time.
 bool cut(KeyTrack& track, float from, float to);
 
-/// Replaces the keys with linear ones at these times, at least one, unless there is a single key or the track steps.
-void resample(KeyTrack& track, std::span<const float> times);
+/// Replaces the keys with linear ones at these times, at least one. Returns false if there is a single key or the track
+/// steps: it stays as it is.
+bool resample(KeyTrack& track, std::span<const float> times);
 
 /// Lets the value drift from `from` to `to` so that it ends with what it has at `start`. The drift follows
 /// 3u² - 2u³, so nothing jumps and, if the keys are dense or cubic, nothing turns sharply.

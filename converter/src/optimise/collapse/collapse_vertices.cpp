@@ -43,7 +43,8 @@ constexpr std::uint32_t kSmall = 20'000;
 /// If more samples than this surround a point, half are dropped, but none that is half as far off as the worst: keeps
 /// the work near linear.
 constexpr std::size_t kMostHeld = 160;
-/// If there are this many, all but the worst may be dropped: they can be equally far off, as on a flat or round surface.
+/// If there are this many, all but the worst may be dropped: they can be equally far off, as on a flat or round
+/// surface.
 constexpr std::size_t kFarTooMany = 4 * kMostHeld;
 /// Factor on the appearance error when a vertex leaves its side of a seam.
 constexpr double kSeamFactor = 8.0;

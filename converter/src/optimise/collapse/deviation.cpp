@@ -232,7 +232,7 @@ void Original::fit_boxes() {
     }
 }
 
-float Original::distance_squared(std::size_t shape, const glm::vec3& place, float enough, std::uint32_t& near) const {
+float Original::distance_squared(std::size_t shape, const glm::vec3& place, float enough, std::uint32_t& near) {
     if (nodes_.empty()) return 0.0f;
     const std::vector<glm::vec3>& places = places_[shape];
     const std::vector<Box<glm::vec3>>& boxes = boxes_[shape];
@@ -248,7 +248,7 @@ float Original::distance_squared(std::size_t shape, const glm::vec3& place, floa
     std::size_t size = 0;
     open[size++] = {0.0f, 0};
     float best = distance_to(near);
-    for (std::size_t tested = 0; size != 0 && best > enough && tested < kMostTested;) {
+    for (const std::uint64_t most = work_ + kMostTested; size != 0 && best > enough && work_ < most;) {
         const Open next = open[--size];
         if (next.distance >= best) continue;
         const Node& node = nodes_[next.node];
@@ -260,7 +260,7 @@ float Original::distance_squared(std::size_t shape, const glm::vec3& place, floa
             if (left.distance < best) open[size++] = left;
             continue;
         }
-        tested += node.count;
+        work_ += node.count;
         for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
             const float distance = distance_to(order_[k]);
             if (!(distance < best)) continue;

@@ -62,8 +62,9 @@ public:
     /// `enough`. Where very many triangles overlap, it may be too large: the work is bounded.
     /// \param near  a triangle of the surface to start with: the nearer, the faster; becomes the nearest one that was
     ///              tested
-    [[nodiscard]] float distance_squared(std::size_t shape, const glm::vec3& place, float enough,
-                                         std::uint32_t& near) const;
+    [[nodiscard]] float distance_squared(std::size_t shape, const glm::vec3& place, float enough, std::uint32_t& near);
+    /// The number of triangles tested so far.
+    [[nodiscard]] std::uint64_t work() const { return work_; }
 
 private:
     /// The nodes of a subtree are consecutive: the left child is the next node.
@@ -83,6 +84,7 @@ private:
     std::vector<std::uint32_t> order_;
     std::vector<Node> nodes_;
     std::vector<std::vector<Box<glm::vec3>>> boxes_;  // by shape, then node
+    std::uint64_t work_ = 0;
 };
 
 /// Weight of squared distances in shapes other than the rest pose: the skin is mostly seen near rest.

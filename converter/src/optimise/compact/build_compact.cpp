@@ -7,6 +7,7 @@
 #include "optimise/measure_error.h"
 #include "optimise/sample_limits.h"
 #include "scene/evaluate.h"
+#include "scene/failure.h"
 #include "scene/frame_shapes.h"
 #include "scene/progress.h"
 
@@ -15,10 +16,13 @@
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/chunk_writer.h>
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <new>
 #include <numeric>
 #include <optional>
@@ -46,17 +50,70 @@ double geometry_share_of(const Scene& scene) {
     return moves ? kGeometryShare : kStillShare;
 }
 
+/// The vertex of a scene, or of one of its meshes, that is farthest from the origin at rest, as `mesh "Body", vertex
+/// 3`; empty if all are at the origin.
+std::string farthest_vertex(const Scene& scene, std::uint32_t only_mesh = kNone) {
+    EvaluatedPose rest;
+    evaluate_rest(scene, rest);
+    MeasuredError farthest;
+    for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+        if (only_mesh != kNone && mesh != only_mesh) continue;
+        const std::vector<glm::dvec3> places = evaluate_vertices(scene.meshes[mesh], {}, rest.joints);
+        for (std::uint32_t vertex = 0; vertex < places.size(); ++vertex) {
+            const double metres = glm::length(places[vertex]);
+            if (metres <= farthest.metres) continue;
+            farthest.metres = metres;
+            farthest.mesh = mesh;
+            farthest.vertex = vertex;
+        }
+    }
+    std::string place = place_of(scene, farthest);
+    return place.substr(0, place.rfind(", at rest"));
+}
+
+/// Warns of meshes whose positions could not be quantised.
+void report_exact_positions(const Scene& scene, const CompactGeometry& geometry, Report& report) {
+    for (std::uint32_t number = 0; number < scene.meshes.size(); ++number) {
+        const Mesh& mesh = scene.meshes[number];
+        if (geometry.meshes[number].positions || mesh.positions.empty() || has_frames(mesh) || mesh.grid) continue;
+        report.warn("positions written exactly: steps as small as the error bound do not reach that far",
+                    farthest_vertex(scene, number));
+    }
+}
+
 /// Measures the clips with measure_clips on the file's bytes.
+/// \param why  receives what is wrong if they cannot be read back; the errors are infinite then
 std::vector<MeasuredError> measure(const Scene& exact, const CompactGeometry& geometry, Bytes bytes,
-                                   std::span<const std::uint32_t> clips, MeasureOptions options) {
+                                   std::span<const std::uint32_t> clips, MeasureOptions options, std::string& why) {
     Report unheard;
     auto decoded = import_bendy(bytes, unheard, MeshParts::motion);
-    if (!decoded) throw std::bad_alloc();  // what was just written can be read, if there is memory for it
+    if (!decoded) {
+        const ImportError& error = decoded.error();
+        if (error.message == kNotEnoughMemory) throw std::bad_alloc();
+        why = error.message + (error.place.empty() ? "" : " (" + error.place + ')');
+        MeasuredError infinite;
+        infinite.metres = std::numeric_limits<double>::infinity();
+        return std::vector<MeasuredError>(clips.size() + 1, infinite);
+    }
     std::vector<std::vector<std::uint32_t>> maps;
     maps.reserve(geometry.meshes.size());
     for (const CompactMesh& mesh : geometry.meshes) maps.push_back(mesh.vertex_of);
     options.vertex_maps = maps;
     return measure_clips(exact, *decoded, clips, options);
+}
+
+/// Bytes of the same file without levels of detail, which has its vertices in another order.
+/// \param packed  with the clips as they are written
+std::size_t size_without_levels(const Scene& packed, const Scene& without, double geometry_error,
+                                std::string_view generator) {
+    Scene scene = without;
+    const CompactGeometry geometry = compact_geometry(scene, geometry_error, {});
+    scene.clips = packed.clips;
+    BuildOptions how;
+    how.compact = true;
+    how.geometry = &geometry;
+    Report unheard;
+    return build_chunks(scene, generator, unheard, how).size();
 }
 
 /// The file with BNDS after VERS, where build_chunks puts it: its contents are known only after the file is measured.
@@ -121,10 +178,15 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
     result.max_error = bound.is_share ? bound.value * result.height : bound.value;
     result.exact = count_bytes(build_chunks(exact, generator, report));
     Report unheard;  // discarded: all files give the same warnings
-    const auto exactly = [&](std::string_view why) {
-        report.warn(std::string(why) + ": written exactly");
+    const auto exactly = [&](std::string_view why, std::string place = {}) {
+        report.warn(std::string(why) + ": written exactly", std::move(place));
         return build_chunks(exact, generator, unheard);
     };
+    // The file says both as 32-bit numbers.
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    if (!(result.height <= kLargest))
+        return exactly("the character's height is too large for an error bound", farthest_vertex(exact));
+    if (!(result.max_error <= kLargest)) return exactly("the error bound is too large a number of metres");
     if (!find_limits(exact).can_be_measured) return exactly("poses too much for its size to be measured");
 
     Scene scene = exact;
@@ -136,6 +198,8 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
     const double geometry_done = std::min(0.8, kGeometryWork / (kGeometryWork + seconds));
     const CompactGeometry geometry =
         compact_geometry(scene, result.max_error * geometry_share, part_of(progress, 0.0, geometry_done));
+
+    report_exact_positions(exact, geometry, report);
 
     std::vector<std::vector<float>> steps;  // of the targets' weights in clips
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
@@ -156,6 +220,7 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
     std::vector<std::uint32_t> waiting;
     for (const std::uint32_t clip : all) (clip % stride == 0 ? to_pack : waiting).push_back(clip);
     std::vector<std::byte> bytes;
+    std::string why_unreadable;
     double done = geometry_done;
     // Builds the file and measures clips of it; returns those that are above the bound.
     const auto above_bound = [&](const std::vector<std::uint32_t>& measured, bool is_draft, double until) {
@@ -172,7 +237,7 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
         for (const std::uint32_t clip : all) {  // what was measured before is in this file, too
             if (errors[clip].metres <= result.max_error) what.known = std::max(what.known, errors[clip].metres);
         }
-        const std::vector<MeasuredError> found = measure(exact, geometry, bytes, measured, what);
+        const std::vector<MeasuredError> found = measure(exact, geometry, bytes, measured, what, why_unreadable);
         done = until;
         errors.back() = found.back();
         std::vector<std::uint32_t> above;
@@ -219,8 +284,14 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
     for (const MeasuredError& error : errors) {
         if (error.metres > worst.metres) worst = error;
     }
+    if (!why_unreadable.empty()) return exactly("compact, it could not be read back, " + why_unreadable);
     if (!(worst.metres <= result.max_error)) {
         return exactly("cannot be kept inside the error that was asked for");
+    }
+    if (options.without_levels != nullptr) {
+        const std::size_t without =
+            size_without_levels(scene, *options.without_levels, result.max_error * geometry_share, generator);
+        result.lod_bytes = static_cast<std::int64_t>(bytes.size()) - static_cast<std::int64_t>(without);
     }
     bytes = with_bound(bytes, {static_cast<float>(result.max_error), static_cast<float>(worst.metres),
                                static_cast<float>(result.height)});

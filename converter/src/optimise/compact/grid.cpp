@@ -82,15 +82,16 @@ Tracks sort_tracks(const Clip& clip, const std::vector<bool>& still) {
 /// One frame, or two that span the clip: for constant tracks.
 Grid still_grid(const Tracks& tracks) {
     const auto [start, end] = tracks.span;
-    const bool lasts = end > start;
-    return {start, lasts ? static_cast<float>(1.0 / (double{end} - start)) : 1.0f, lasts ? 2u : 1u};
+    const auto rate = static_cast<float>(1.0 / (double{end} - start));
+    const bool lasts = end > start && std::isfinite(rate);
+    return {start, lasts ? rate : 1.0f, lasts ? 2u : 1u};
 }
 
 /// The even grid that holds most of the moving tracks, and those tracks.
 GridTracks even_grid(const Clip& clip, const Tracks& tracks, double most_frames) {
     GridTracks found;
     const std::optional<double> base = rate_of(*tracks.densest, most_frames);
-    if (!base) return found;
+    if (!base || !std::isfinite(static_cast<float>(*base * kDenser))) return found;
     for (std::uint32_t denser = 1; denser <= kDenser; ++denser) {
         const double rate = *base * denser;
         const double first = tracks.densest->times.front();

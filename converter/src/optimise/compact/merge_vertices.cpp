@@ -119,7 +119,7 @@ public:
 private:
     static constexpr std::uint32_t kMostCorners = 512;  // at a vertex: models have less than a hundred
 
-    std::vector<std::uint32_t> number_of_;           // by vertex
+    std::vector<std::uint32_t> number_of_;            // by vertex
     std::vector<std::uint32_t> vertex_of_, corners_;  // by number
     std::vector<std::uint32_t> sparse_, crowded_;     // triangles
 };

@@ -169,6 +169,10 @@ std::optional<StoredStream> quantise_boxed(std::span<const float> values, std::u
         most = std::max(most, steps_to(range.high, stream.boxes.back()));
     }
     if (values.empty() || most > most_steps) return std::nullopt;
+    const float largest_number = most <= 0xffff ? 65536.0f : 4294967296.0f;
+    for (const StreamBox& box : stream.boxes) {  // what any integer stands for must be a number
+        if (!std::isfinite(box.minimum + largest_number * box.step)) return std::nullopt;
+    }
     stream.type = most <= 0xff ? ComponentType::u8 : (most <= 0xffff ? ComponentType::u16 : ComponentType::u32);
     for (std::size_t at = 0; at < values.size(); ++at)
         put_integer(stream, steps_to(values[at], stream.boxes[at % components]));
@@ -179,7 +183,7 @@ std::optional<StoredStream> quantise_boxed(std::span<const float> values, std::u
 std::optional<StoredStream> quantise_shifts(std::span<const glm::vec3> shifts, double most_error) {
     if (shifts.empty()) return std::nullopt;
     const float step = step_of(most_error, 3);
-    if (!(step > 0.0f) || !std::isfinite(step)) return std::nullopt;
+    if (!(step > 0.0f) || !std::isfinite(65536.0f * step)) return std::nullopt;
     const std::span<const float> values(&shifts[0].x, shifts.size() * 3);
     StoredStream stream;
     stream.components = 3;

@@ -170,10 +170,18 @@ Result<Buffer, ImportError> convert_any(std::optional<Buffer> source, const std:
         if (options.drop_unused) drop_unused(*scene, report);
         constexpr double kLodDone = 0.4;  // share of the work, if both are requested
         if (options.progress) options.progress(0.0);
+        std::optional<Scene> without_levels;
+        if (options.lod && options.compact) without_levels = *scene;
         if (options.lod) collapse_vertices(*scene, part_of(options.progress, 0.0, options.compact ? kLodDone : 1.0));
         const Progress compact_progress = part_of(options.progress, options.lod ? kLodDone : 0.0, 1.0);
         if (!options.keep_order && !options.compact) sort_by_bones(*scene);
-        Buffer bytes = options.compact ? build_compact(*scene, {*options.compact, compact_progress, options.threads},
+        if (scene->levels.empty()) {
+            if (options.lod) report.warn("no levels of detail: there is no vertex that can collapse");
+            without_levels.reset();
+        }
+        Buffer bytes = options.compact ? build_compact(*scene,
+                                                       {*options.compact, compact_progress, options.threads,
+                                                        without_levels ? &*without_levels : nullptr},
                                                        kGenerator, report)
                                        : build_chunks(*std::move(scene), kGenerator, report);
         // The importer has checked the source; this checks the importer before anything is written.
@@ -184,7 +192,7 @@ Result<Buffer, ImportError> convert_any(std::optional<Buffer> source, const std:
     } catch (const Failure& failure) {  // only from the rig: importers do not throw
         return ImportError{failure.error.place, failure.error.message, options.rig.value_or(file)};
     } catch (const std::bad_alloc&) {
-        return ImportError{{}, "not enough memory"};
+        return ImportError{{}, std::string(kNotEnoughMemory)};
     }
 }
 

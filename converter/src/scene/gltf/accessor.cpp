@@ -98,9 +98,13 @@ std::vector<Out> decode(const Document& document, std::size_t index, const std::
         const auto view = static_cast<std::size_t>(accessor.bufferView);
         base = elements_in(document, view, accessor.byteOffset, count, layout.size,
                            document.buffers.stride(view).value_or(layout.size), place, what);
-    } else if (count > kMaxImpliedElements) {
-        fail(place, what + ": " + std::to_string(count) + " elements without stored data, at most " +
-                        std::to_string(kMaxImpliedElements) + " are accepted");
+    } else {
+        const auto sparse = accessor.sparse.isSparse ? static_cast<std::uint64_t>(accessor.sparse.count) : 0;
+        const std::uint64_t most = std::max(kMaxImpliedElements, document.budget.source_bytes());
+        if (count > sparse && count - sparse > most) {
+            fail(place, what + ": " + std::to_string(count - sparse) + " elements without stored data, at most " +
+                            std::to_string(most) + " are accepted");
+        }
     }
     document.budget.take(count, components * sizeof(Out), place);
     std::vector<Out> values(static_cast<std::size_t>(count) * components, Out{});

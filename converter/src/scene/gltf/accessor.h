@@ -9,8 +9,9 @@
 
 namespace bendy::converter::gltf {
 
-/// Limit on the elements of an accessor without stored data (zeros, with or without sparse values).
-inline constexpr std::uint64_t kMaxImpliedElements = std::uint64_t{1} << 24;
+/// Limit on the elements of an accessor without stored data: zeros that no sparse value replaces. A file that has more
+/// bytes than this may have as many of them as bytes.
+inline constexpr std::uint64_t kMaxImpliedElements = std::uint64_t{1} << 18;
 
 /// Components of one element: SCALAR 1 to MAT4 16.
 std::size_t component_count(const tinygltf::Accessor& accessor);

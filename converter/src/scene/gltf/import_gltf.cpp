@@ -77,7 +77,7 @@ Result<Scene, ImportError> import_from(const Read& read, ReadableFolders folders
     } catch (const Failure& failure) {
         return ImportError{one_line(failure.error.place), one_line(failure.error.message)};
     } catch (const std::bad_alloc&) {
-        return ImportError{{}, "not enough memory"};
+        return ImportError{{}, std::string(kNotEnoughMemory)};
     } catch (const std::exception& error) {
         return ImportError{{}, one_line(std::string("unexpected: ") + error.what())};
     }

@@ -6,6 +6,7 @@
 #include <bendy/converter/scene.h>
 #include <bendy/format/readable_folders.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -26,9 +27,12 @@ public:
     static constexpr std::uint64_t kPerSourceByte = 32;               ///< above the floor, per byte of the source
 
     void add_source(std::uint64_t bytes) {
+        source_ += std::min(bytes, UINT64_MAX - source_);
         const std::uint64_t room = UINT64_MAX - left_;
         left_ += bytes <= room / kPerSourceByte ? bytes * kPerSourceByte : room;
     }
+
+    [[nodiscard]] std::uint64_t source_bytes() const { return source_; }
 
     /// Charges `count` elements of `size` bytes, or fails at `place`.
     void take(std::uint64_t count, std::uint64_t size, const std::string& place) {
@@ -37,6 +41,7 @@ public:
     }
 
 private:
+    std::uint64_t source_ = 0;
     std::uint64_t left_ = kFloor;
 };
 
