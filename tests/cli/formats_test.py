@@ -338,6 +338,9 @@ class QuakeModels(Case):
         heights = sorted({corner[1] for corner in read_obj((self.folder / "up.obj").read_text())["v"]})
         # The fourth frame: 3 units up, and from 0 to 2 of its own.
         self.assertEqual([round(height * 32, 4) for height in heights], [3, 5])
+        said = self.failed("edit", "man.bendy", "--resample", "run@60", "-o", "other.bendy", file="man.bendy")
+        self.assertIn('clip "run" cannot be resampled: it plays stored frames, which have a rate of their own', said)
+        self.assertFalse((self.folder / "other.bendy").exists())
 
     def test_the_skin_is_found_beside_the_model(self):
         png = b"\x89PNG\r\n\x1a\n" + bytes(60)

@@ -590,6 +590,8 @@ TEST(Clips, SayWhatIsWrong) {
     EXPECT_EQ(wrong(file, "resample", "Walk@0"), "0 keys per second: the rate must be from 0.001 to 10000");
     EXPECT_EQ(wrong(file, "resample", "Walk@-1"), "-1 keys per second: the rate must be from 0.001 to 10000");
     EXPECT_EQ(wrong(file, "resample", "Walk=30"), "\"Walk=30\" is not CLIP@RATE");
+    EXPECT_EQ(wrong(body({clip_of("Still", {})}), "resample", "*@30"),
+              "clip \"Still\" cannot be resampled: it has no keys");
     EXPECT_EQ(wrong(file, "loop", "Walk=0"), "0 s: the end must drift for a time above 0");
     EXPECT_EQ(wrong(file, "loop", "Walk=2"), "clip \"Walk\": it lasts 1.75 s, which is less than 2 s");
     EXPECT_EQ(wrong(body({}), "mirror", "*"), "the file has no clips");
