@@ -467,7 +467,10 @@ void bind_tools(py::module_& module) {
         .def(py::init(&read_tree), py::arg("source"))
         .def(
             "chunks",
-            [](const PyTree& self) { return parse_json(tools::json_text(tools::chunks_as_json(self.tree, 0))); },
+            [](const PyTree& self) {
+                const tools::FaultyChunks faulty(self.tree, validate(self.source->bytes()));
+                return parse_json(tools::json_text(tools::chunks_as_json(self.tree, 0, faulty)));
+            },
             "A dict for each chunk, in file order, as `bendy inspect --json` has them.")
         .def("payload", &payload_of, py::arg("number"), "(size,) uint8, read-only: a chunk's payload, decoded.")
         .def(

@@ -190,7 +190,7 @@ Json run_inspect(const Json& request, Made& /*made*/) {
     const MappedFile file = map_bendy(text_of(request, "file"));
     ChunkTree tree = read_tree(file.bytes());
     decode_leaves(tree);
-    return {{"chunks", tools::chunks_as_json(tree, 0)}};
+    return {{"chunks", tools::chunks_as_json(tree, 0, tools::FaultyChunks(tree, validate(file.bytes())))}};
 }
 
 Json run_summary(const Json& request, Made& /*made*/) {
