@@ -33,6 +33,7 @@ class ConvertBatch(Case):
     def write_model(self, place):
         """A triangle with its corners and a picture in files beside it."""
         path = self.folder / place
+        uri = path.stem.replace("\x1b", "%1b")  # a URI has no control characters
         path.parent.mkdir(parents=True, exist_ok=True)
         path.with_suffix(".bin").write_bytes(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))
         path.with_suffix(".png").write_bytes(b"\x89PNG\r\n\x1a\n" + place.encode())
@@ -40,10 +41,10 @@ class ConvertBatch(Case):
             "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"name": place, "mesh": 0}],
             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
             "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
-            "textures": [{"source": 0}], "images": [{"uri": path.stem + ".png"}],
+            "textures": [{"source": 0}], "images": [{"uri": uri + ".png"}],
             "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
             "bufferViews": [{"buffer": 0, "byteLength": 36}],
-            "buffers": [{"byteLength": 36, "uri": path.stem + ".bin"}]}))
+            "buffers": [{"byteLength": 36, "uri": uri + ".bin"}]}))
         return path
 
     def batch(self, *arguments, status=0):
