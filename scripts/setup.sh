@@ -96,6 +96,7 @@ if wants test gate all; then
 fi
 if wants gate all; then
     need /usr/include/benchmark/benchmark.h libbenchmark-dev
+    need /usr/include/tbb/parallel_for.h libtbb-dev
     need clang++ clang
     compgen -G '/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.asan-*.a' >/dev/null || missing+=(libclang-rt-dev)
     need clang-format clang-format
@@ -113,7 +114,6 @@ if wants all; then
         /usr/bin/python3 -c "import $module" 2>/dev/null || missing+=("python3-$module")
     done
     need patchelf patchelf
-    need /usr/include/tbb/parallel_for.h libtbb-dev
     need /usr/include/assimp/Importer.hpp libassimp-dev
     compgen -G '/usr/lib/llvm-*/include/c++/v1/vector' >/dev/null || missing+=(libc++-dev libc++abi-dev)
     need /usr/src/googletest/CMakeLists.txt googletest

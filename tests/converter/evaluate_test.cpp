@@ -141,7 +141,9 @@ TEST(Evaluate, FollowsTheJointsThatAreNeeded) {
                     if (carrier != kNone) place = found.joints[carrier] * place;
                     for (int c = 0; c < 4; ++c) {
                         EXPECT_LT(glm::distance(place[c], right.joints[joint][c]), 1e-12);
-                        if (needed[joint]) EXPECT_LT(glm::distance(found.joints[joint][c], place[c]), 1e-12);
+                        if (needed[joint]) {
+                            EXPECT_LT(glm::distance(found.joints[joint][c], place[c]), 1e-12);
+                        }
                     }
                 }
             }
