@@ -66,10 +66,8 @@ FOREIGN = {
     "page.glb": (b"<!DOCTYPE html>\n", "an HTML page", "download the model itself"),
     "page.bendy": (b"<!DOCTYPE html>\n", "an HTML page", "download the model itself"),
     "pointer.glb": (b"version https://git-lfs.github.com/spec/v1\noid sha256:aa\nsize 1\n", "a Git LFS pointer", "git lfs pull"),
-    "pointer.bendy": (b"version https://git-lfs.github.com/spec/v1\noid sha256:aa\nsize 1\n", "a Git LFS pointer", "git lfs pull"),
     "picture.bvh": (b"\x89PNG\r\n\x1a\n" + bytes(40), "a picture", "the model that uses it"),
     "rig.json": (b'{"bendy_rig": 1}', "a rig file", "--rig FILE"),
-    "rig.bendy": (b'{"bendy_rig": 1}', "a rig file", "--rig FILE"),
     "model.zip": (b"PK\3\4" + bytes(80), "a ZIP archive", "unpack it"),
     "a.ma": (b"//Maya ASCII 2020 scene\n", "a Maya file", "program that made it"),
 }

@@ -199,5 +199,21 @@ TEST_F(ConvertFile, SaysInOneLineWhatIsWrong) {
     }
 }
 
+TEST(Convert, LevelsOfDetailSayWhatTheyCostInAll) {
+    for (const char* name : {"mannequin.glb", "tentacle.glb"}) {
+        ConvertOptions options;
+        options.compact = ErrorBound();
+        const std::size_t without = convert_good(example(name), options).size();
+        options.lod = true;
+        Report report;
+        const Result<Buffer, ImportError> bytes = convert(example(name), options, report);
+        ASSERT_TRUE(bytes.has_value());
+        ASSERT_TRUE(report.compact.has_value());
+        ASSERT_TRUE(report.compact->lod_bytes.has_value());
+        EXPECT_EQ(*report.compact->lod_bytes, static_cast<std::int64_t>(bytes->size() - without));
+        EXPECT_GT(*report.compact->lod_bytes, 0);
+    }
+}
+
 }  // namespace
 }  // namespace bendy::converter::convert_test

@@ -7,6 +7,7 @@
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import.h>
+#include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <random>
 #include <string>
 
@@ -216,6 +218,70 @@ TEST(BuildCompact, AClipThatOnlyMorphsLeavesTheBoundToTheGeometry) {
     ASSERT_TRUE(report.compact);
     EXPECT_GT(report.compact->measured_error, 0.35e-3);  // the share that moving joints leave to the geometry
     EXPECT_LE(report.compact->measured_error, 1e-3);
+}
+
+/// Four vertices, of which the last is at this place, on a joint of this scale.
+Scene with_far_vertex(const glm::vec3& place, float scale) {
+    Scene scene;
+    scene.joints.resize(1);
+    scene.joints[0].rest.scale = glm::vec3(scale);
+    Mesh& mesh = scene.meshes.emplace_back();
+    mesh.name = "Body";
+    mesh.joint = 0;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, place};
+    mesh.submeshes.push_back({Topology::triangles, kNone, {0, 1, 2, 1, 3, 2}});
+    return scene;
+}
+
+TEST(BuildCompact, AVertexAtAnyNumberIsHeld) {
+    for (const float far : {1e20f, 1e38f, -3e38f, 1e-40f}) {
+        Report report;
+        const auto bytes = build_compact(with_far_vertex({far, 0, far}, 1.0f), {}, "test", report);
+        EXPECT_TRUE(validate(bytes).empty()) << far;
+        const Result<Scene, ImportError> read = import_bendy(bytes, report);
+        ASSERT_TRUE(read.has_value()) << far << ": " << read.error().message;
+    }
+}
+
+TEST(BuildCompact, WhatTheBoundCannotHoldIsNamed) {
+    Report report;
+    auto bytes = build_compact(with_far_vertex({0, 1e20f, 0}, 1e20f), {}, "test", report);
+    EXPECT_TRUE(validate(bytes).empty());
+    EXPECT_FALSE(report.compact.has_value());
+    ASSERT_EQ(report.warnings().size(), 1u);
+    EXPECT_EQ(report.warnings()[0].message, "the character's height is too large for an error bound: written exactly");
+    EXPECT_EQ(report.warnings()[0].first_place, "mesh \"Body\", vertex 3");
+
+    Report of_bound;
+    CompactOptions options;
+    options.bound = {1e39, false};
+    bytes = build_compact(with_far_vertex({0, 2, 0}, 1.0f), options, "test", of_bound);
+    EXPECT_TRUE(validate(bytes).empty());
+    ASSERT_EQ(of_bound.warnings().size(), 1u);
+    EXPECT_EQ(of_bound.warnings()[0].message, "the error bound is too large a number of metres: written exactly");
+
+    Report of_steps;
+    options.bound = {1e-4, false};
+    bytes = build_compact(with_far_vertex({0, 1e20f, 0}, 1.0f), options, "test", of_steps);
+    EXPECT_TRUE(validate(bytes).empty());
+    ASSERT_EQ(of_steps.warnings().size(), 1u);
+    EXPECT_EQ(of_steps.warnings()[0].message,
+              "positions written exactly: steps as small as the error bound do not reach that far");
+    EXPECT_EQ(of_steps.warnings()[0].first_place, "mesh \"Body\", vertex 3");
+}
+
+TEST(BuildCompact, KeysAtDenormalTimesAreHeld) {
+    Scene scene = with_far_vertex({1, 1, 0}, 1.0f);
+    constexpr float kLeast = std::numeric_limits<float>::denorm_min();
+    scene.clips.emplace_back().tracks = {
+        {TrackPath::translation, Interpolation::linear, 0, 3, {0.0f, kLeast}, {0, 0, 0, 1, 0, 0}},
+        {TrackPath::scale, Interpolation::linear, 0, 3, {0.0f, kLeast}, {1, 1, 1, 1, 1, 1}}};
+    for (const bool moves : {true, false}) {
+        if (!moves) scene.clips[0].tracks.erase(scene.clips[0].tracks.begin());
+        Report report;
+        EXPECT_TRUE(validate(build_compact(scene, {}, "test", report)).empty());
+        EXPECT_TRUE(report.warnings().empty());
+    }
 }
 
 }  // namespace

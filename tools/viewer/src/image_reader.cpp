@@ -97,7 +97,7 @@ public:
     }
 
     void add(const std::uint8_t* row) {
-        static const std::array<std::uint32_t, 256> kLinear = linear_values();
+        static const std::array<std::uint32_t, 256> linear_by_value = linear_values();
         if (halvings_ == 0) {
             std::memcpy(picture_.pixels.data() + picture_.row_size() * row_, row, picture_.row_size());
             ++row_;
@@ -107,7 +107,7 @@ public:
             std::uint64_t* const sum = sums_.data() + 4 * (x >> halvings_);
             for (std::size_t c = 0; c < 4; ++c) {
                 const std::uint8_t value = row[4 * x + c];
-                sum[c] += c < 3 && texels_ == Texels::srgb ? kLinear[value] : value;
+                sum[c] += c < 3 && texels_ == Texels::srgb ? linear_by_value[value] : value;
             }
         }
         ++rows_;
@@ -366,10 +366,12 @@ ReadImage read_bmp_or_tga(Bytes bytes, const ImageSize& size, unsigned halvings,
                               &height, &channels, STBI_rgb_alpha),
         drop);
     if (!pixels && std::strcmp(stbi_failure_reason(), "outofmem") == 0) throw std::bad_alloc();
-    if (!pixels || static_cast<std::uint32_t>(width) != size.width || static_cast<std::uint32_t>(height) != size.height)
-        return {{},
-                std::string("is not a valid ") + (is_bmp(bytes) ? "BMP: " : "TGA: ") +
-                    (pixels ? "bad size" : stbi_failure_reason())};
+    const bool is_read =
+        pixels && static_cast<std::uint32_t>(width) == size.width && static_cast<std::uint32_t>(height) == size.height;
+    if (!is_read) {
+        const std::string why = pixels ? "bad size" : stbi_failure_reason();
+        return {{}, std::string("is not a valid ") + (is_bmp(bytes) ? "BMP: " : "TGA: ") + why};
+    }
     return {shrunk(pixels.get(), size, halvings, texels), {}};
 }
 

@@ -155,6 +155,7 @@ void TextureLoader::load(std::span<const TextureUse> uses, const TextureLimits& 
         wanted.uses.push_back(&use);
     }
     std::vector<Wanted> left;
+    left.reserve(by_texture.size());
     for (auto& [key, wanted] : by_texture) left.push_back(std::move(wanted));
     while (!left.empty()) {
         std::erase_if(left, [&](Wanted& wanted) {

@@ -81,9 +81,9 @@ GLuint compile(GLenum kind, const char* source) {
 
 void require_memory(std::uint64_t bytes, const std::string& what) {
     constexpr std::uint64_t kForTheDriver = 64 * kMiB;  // which compiles shaders when it draws
-    if (!can_map(bytes + kForTheDriver, PROT_READ | PROT_WRITE))
-        throw ViewerError("not enough memory for " + what + ", which takes " +
-                          std::to_string((bytes + kMiB - 1) / kMiB) + " MiB");
+    if (can_map(bytes + kForTheDriver, PROT_READ | PROT_WRITE)) return;
+    throw ViewerError("not enough memory for " + what + ", which takes " + std::to_string((bytes + kMiB - 1) / kMiB) +
+                      " MiB");
 }
 
 void require_driver_memory() {
