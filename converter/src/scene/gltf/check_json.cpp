@@ -469,7 +469,7 @@ void move_target_names(Json& root, Report& report) {
             each(primitive, "targets", [&](Json& target, std::size_t t) {
                 const std::string place = at("meshes", m) + '.' + at("primitives", p) + '.' + at("targets", t);
                 names.push_back(target.is_object() ? take_target_name(target, place, report) : std::string());
-                has_names = has_names || names.back() != "";
+                has_names = has_names || !names.back().get_ref<const std::string&>().empty();
             });
             if (!has_names) return;
             Json& extras = primitive["extras"];
