@@ -416,9 +416,10 @@ std::string content_text(const ChunkTree& tree, std::uint32_t number, const RigI
         return material_text(record_at<SurfaceRecord>(tree, tree.find(number, FourCC("SURF"))));
     if (chunk.id == FourCC("IMAG"))
         return std::string(name_at(kShownNames<MediaType>, record_at<ImageRecord>(tree, number).media));
-    if (chunk.id == FourCC("SAME"))
-        return "the same image as image " + std::to_string(record_at<SameRecord>(tree, number).image) + " of TEXT " +
-               std::to_string(record_at<SameRecord>(tree, number).texture);
+    if (chunk.id == FourCC("SAME")) {
+        const auto same = record_at<SameRecord>(tree, number);
+        return "the same image as image " + std::to_string(same.image) + " of TEXT " + std::to_string(same.texture);
+    }
     const LeafLayout* leaf = find_leaf(chunk.id);
     return leaf == nullptr || chunk.is_container() ? std::string() : leaf_text(*leaf, tree.payload(number));
 }

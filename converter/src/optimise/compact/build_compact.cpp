@@ -93,7 +93,8 @@ std::vector<MeasuredError> measure(const Scene& exact, const CompactGeometry& ge
         why = error.message + (error.place.empty() ? "" : " (" + error.place + ')');
         MeasuredError infinite;
         infinite.metres = std::numeric_limits<double>::infinity();
-        return std::vector<MeasuredError>(clips.size() + 1, infinite);
+        std::vector<MeasuredError> errors(clips.size() + 1, infinite);
+        return errors;
     }
     std::vector<std::vector<std::uint32_t>> maps;
     maps.reserve(geometry.meshes.size());

@@ -406,9 +406,8 @@ private:
             if (!is_placed[i]) losses_.add(kExternal, call_asset(i), at("externalAssets", i));
         }
         for (std::size_t i = 0; i < files.size(); ++i) {
-            if (files[i].is_object() && files[i].contains("bufferView"))
-                losses_.add("the bytes of files of glTF 2.1 in buffer views", call(files[i], "files", i),
-                            at("files", i));
+            if (!files[i].is_object() || !files[i].contains("bufferView")) continue;
+            losses_.add("the bytes of files of glTF 2.1 in buffer views", call(files[i], "files", i), at("files", i));
         }
     }
 

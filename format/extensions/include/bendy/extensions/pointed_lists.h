@@ -20,6 +20,9 @@ struct NamedList {
     NamedList() = default;
     NamedList(NamedList&&) = default;
     NamedList(const NamedList&) = delete;
+    NamedList& operator=(NamedList&&) = delete;
+    NamedList& operator=(const NamedList&) = delete;
+    ~NamedList() = default;
 };
 
 /// Where a JSON pointer leads in the extensions of HEAD: "/extensions/KHR_lights_punctual/lights/0/intensity". The
@@ -29,6 +32,9 @@ public:
     /// \param json  an object of extensions by name; anything else has no lists
     explicit PointedLists(std::string_view json);
     PointedLists(PointedLists&&) noexcept;
+    PointedLists(const PointedLists&) = delete;
+    PointedLists& operator=(PointedLists&&) = delete;
+    PointedLists& operator=(const PointedLists&) = delete;
     ~PointedLists();
 
     /// Returns true if there is a value at the pointer, or an object that could have it as a member.
