@@ -291,8 +291,9 @@ class Summaries(MessageCase):
         data[-20] ^= 1
         (self.folder / "bad.bendy").write_bytes(data)
         result = self.bendy("inspect", "bad.bendy")
-        self.assertEqual(result.returncode, 0)
+        self.assertEqual(result.returncode, 1)
         self.assertTrue(result.stdout.startswith("bad.bendy, "))
+        self.assertIn("  FAULT: ", result.stdout)
         self.assertIsNone(json.loads(self.bendy("inspect", "bad.bendy", "--json").stdout)["summary"])
         self.assertTrue(self.refused(1, "inspect", "bad.bendy", "--summary")[0].startswith("bad.bendy: "))
 
