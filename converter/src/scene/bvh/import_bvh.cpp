@@ -163,8 +163,8 @@ std::string from_utf16(std::string_view text) {
     if (!is_little && !is_big) return converted;
     const auto unit = [&](std::size_t at) -> std::uint32_t {
         if (text.size() < 2 || at > text.size() - 2) return 0;
-        const auto first = static_cast<unsigned char>(text[at]);
-        const auto second = static_cast<unsigned char>(text[at + 1]);
+        const std::uint32_t first = static_cast<unsigned char>(text[at]);
+        const std::uint32_t second = static_cast<unsigned char>(text[at + 1]);
         return is_little ? first | second << 8u : first << 8u | second;
     };
     constexpr std::uint32_t kUnknown = 0xfffd;
