@@ -27,7 +27,7 @@ KNOWN = {
                   'alphaCutoff', 'doubleSided', 'extras'},
 }
 HOSTS = {'root': 'root', 'nodes': 'node', 'materials': 'material'}
-# What Blender makes anew, with the members that it does not leave out.
+# Objects that Blender creates anew, with the members that it keeps.
 MADE_ANEW = {'textures': {'source', 'sampler'}, 'images': {'uri', 'bufferView', 'mimeType', 'name'},
              'samplers': {'magFilter', 'minFilter', 'wrapS', 'wrapT'}, 'skins': {'joints', 'inverseBindMatrices', 'skeleton', 'name'}}
 TEXTURE_INFO = {'index', 'texCoord', 'scale', 'strength'}

@@ -389,7 +389,7 @@ TEST(GltfMesh, NamesOfTargetsInTargets) {
     const Import rest = gltf.import();
     EXPECT_EQ(rest->meshes.at(0).targets.at(0).name, "Smile");
     EXPECT_EQ(rest->meshes.at(0).targets.at(1).name, "Wink");
-    EXPECT_EQ(rest.warned("what a morph target has beside its accessors and its name is left out"), 2u);
+    EXPECT_EQ(rest.warned("members of a morph target that are neither accessors nor its name are left out"), 2u);
 }
 
 TEST(GltfMesh, NamesOfTargetsThatDifferAreSaid) {

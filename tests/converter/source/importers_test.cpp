@@ -1,10 +1,12 @@
 #include "scene/source/importers.h"
+#include "scene/gltf/further_members.h"
 
 #include <bendy/converter/source_format.h>
 
 #include <gtest/gtest.h>
 
 #include <set>
+#include <sstream>
 #include <string>
 
 namespace bendy::converter::importers_test {
@@ -63,6 +65,11 @@ std::string kind_of(std::string_view text) {
     }
     EXPECT_EQ(names.size(), 1u) << text;
     return std::string(*names.begin());
+}
+
+TEST(Importers, AnyMemberOfGltfTellsIt) {
+    std::istringstream names{std::string(gltf::known_members(gltf::Element::root))};
+    for (std::string name; names >> name;) EXPECT_EQ(kind_of("{\"" + name + "\": []}"), "a glTF file") << name;
 }
 
 TEST(Importers, WhatIsNoModelIsNamed) {

@@ -34,8 +34,8 @@ struct CompactReport {
     std::uint64_t curves = 0;         ///< in all clips
     std::uint64_t packed_curves = 0;  ///< how many of them are packed; the others are exact
     double curve_error = 0.0;         ///< largest error of packed values, as a share of their component's range
-    /// What levels of detail add to the file in all: LODD, and what other chunks take because vertices and triangles
-    /// are in an order that compresses less.
+    /// The bytes that levels of detail add to the file: LODD, and other chunks, which compress less well because
+    /// vertices and triangles are in the order of the levels.
     std::optional<std::int64_t> lod_bytes;
 };
 

@@ -24,13 +24,13 @@ struct FileKind {
     std::string_view way_in;  ///< if it is not read: how to get a file that is; empty for the text form of a bendy file
 };
 
-/// Recognises the formats that `convert` reads, common ones that it does not, and what is no model at all, such as a
-/// picture or a page: by the first 4 KiB, or else by the name. Nothing if neither matches.
+/// Recognises the formats that `convert` reads, common formats that it does not read, and files that are not models,
+/// such as pictures and web pages: by the first 4 KiB, or else by the name. Nothing if neither matches.
 std::optional<FileKind> find_file_kind(Bytes bytes, const std::filesystem::path& name);
 /// As above, for a file; nothing if it cannot be read.
 std::optional<FileKind> find_file_kind(const std::filesystem::path& file);
 
-/// Recognises what is there in place of a file that was not fetched: a Git LFS pointer, an HTML page.
+/// Recognises a stand-in for a file that was never downloaded: a Git LFS pointer, an HTML page.
 std::optional<FileKind> find_stand_in(Bytes bytes);
 
 /// The reason why a path is not a file: it does not exist, or is a folder. Empty otherwise.
@@ -45,7 +45,7 @@ std::string why_not_convertible(const std::filesystem::path& file);
 /// As above, for a file's bytes.
 std::string why_not_convertible(Bytes bytes, const std::filesystem::path& name);
 
-/// Why a rig file's bytes are none; empty if they may be one.
+/// The reason why bytes cannot be a rig file. Empty if they may be one.
 std::string why_not_a_rig(Bytes bytes);
 
 /// ".gltf, .glb, ...": the file name suffixes that `convert` reads, without bendy's own; for messages. Files are

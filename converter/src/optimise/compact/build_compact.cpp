@@ -71,14 +71,18 @@ std::string farthest_vertex(const Scene& scene, std::uint32_t only_mesh = kNone)
     return place.substr(0, place.rfind(", at rest"));
 }
 
-/// Warns of meshes whose positions could not be quantised.
+/// Warns of meshes whose positions could not be quantised, with the place of the first one.
 void report_exact_positions(const Scene& scene, const CompactGeometry& geometry, Report& report) {
+    std::uint64_t count = 0;
+    std::uint32_t first = kNone;
     for (std::uint32_t number = 0; number < scene.meshes.size(); ++number) {
         const Mesh& mesh = scene.meshes[number];
         if (geometry.meshes[number].positions || mesh.positions.empty() || has_frames(mesh) || mesh.grid) continue;
-        report.warn("positions written exactly: steps as small as the error bound do not reach that far",
-                    farthest_vertex(scene, number));
+        if (count++ == 0) first = number;
     }
+    if (count == 0) return;
+    report.warn("positions written exactly: steps as small as the error bound do not reach that far",
+                farthest_vertex(scene, first), count);
 }
 
 /// Measures the clips with measure_clips on the file's bytes.
@@ -104,12 +108,16 @@ std::vector<MeasuredError> measure(const Scene& exact, const CompactGeometry& ge
 }
 
 /// Bytes of the same file without levels of detail, which has its vertices in another order.
-/// \param packed  with the clips as they are written
-std::size_t size_without_levels(const Scene& packed, const Scene& without, double geometry_error,
-                                std::string_view generator) {
-    Scene scene = without;
+/// \param scene   with the clips as they are written
+/// \param clips   before they were packed: steps of positions follow from these
+/// \param meshes  before their vertices were sorted for levels
+std::size_t size_without_levels(Scene scene, const std::vector<Clip>& clips, const std::vector<Mesh>& meshes,
+                                double geometry_error, std::string_view generator) {
+    scene.meshes = meshes;
+    scene.levels.clear();
+    std::vector<Clip> packed = std::exchange(scene.clips, clips);
     const CompactGeometry geometry = compact_geometry(scene, geometry_error, {});
-    scene.clips = packed.clips;
+    scene.clips = std::move(packed);
     BuildOptions how;
     how.compact = true;
     how.geometry = &geometry;
@@ -289,9 +297,9 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
     if (!(worst.metres <= result.max_error)) {
         return exactly("cannot be kept inside the error that was asked for");
     }
-    if (options.without_levels != nullptr) {
-        const std::size_t without =
-            size_without_levels(scene, *options.without_levels, result.max_error * geometry_share, generator);
+    if (options.meshes_without_levels != nullptr) {
+        const std::size_t without = size_without_levels(std::move(scene), exact.clips, *options.meshes_without_levels,
+                                                        result.max_error * geometry_share, generator);
         result.lod_bytes = static_cast<std::int64_t>(bytes.size()) - static_cast<std::int64_t>(without);
     }
     bytes = with_bound(bytes, {static_cast<float>(result.max_error), static_cast<float>(worst.metres),

@@ -15,8 +15,8 @@ struct CompactOptions {
     ErrorBound bound;
     std::function<void(double)> progress{};  ///< called with the fraction done, 0 to 1; may be empty
     std::size_t threads = 1;                 ///< maximum; the bytes do not depend on it
-    /// Null, or the scene before its vertices were sorted for levels of detail: tells what these cost.
-    const Scene* without_levels = nullptr;
+    /// Null, or the meshes before their vertices were sorted for levels of detail: tells what these cost.
+    const std::vector<Mesh>* meshes_without_levels = nullptr;
 };
 
 /// Writes a scene in compact encodings, such that no point of the skin is further than the bound from its place in the

@@ -170,18 +170,16 @@ Result<Buffer, ImportError> convert_any(std::optional<Buffer> source, const std:
         if (options.drop_unused) drop_unused(*scene, report);
         constexpr double kLodDone = 0.4;  // share of the work, if both are requested
         if (options.progress) options.progress(0.0);
-        std::optional<Scene> without_levels;
-        if (options.lod && options.compact) without_levels = *scene;
+        std::vector<Mesh> meshes_without_levels;
+        if (options.lod && options.compact) meshes_without_levels = scene->meshes;
         if (options.lod) collapse_vertices(*scene, part_of(options.progress, 0.0, options.compact ? kLodDone : 1.0));
         const Progress compact_progress = part_of(options.progress, options.lod ? kLodDone : 0.0, 1.0);
         if (!options.keep_order && !options.compact) sort_by_bones(*scene);
-        if (scene->levels.empty()) {
-            if (options.lod) report.warn("no levels of detail: there is no vertex that can collapse");
-            without_levels.reset();
-        }
+        const bool has_new_levels = options.lod && !scene->levels.empty();
+        if (options.lod && !has_new_levels) report.warn("no levels of detail: no vertex can collapse");
         Buffer bytes = options.compact ? build_compact(*scene,
                                                        {*options.compact, compact_progress, options.threads,
-                                                        without_levels ? &*without_levels : nullptr},
+                                                        has_new_levels ? &meshes_without_levels : nullptr},
                                                        kGenerator, report)
                                        : build_chunks(*std::move(scene), kGenerator, report);
         // The importer has checked the source; this checks the importer before anything is written.

@@ -435,8 +435,8 @@ void check_channels(const Json& root) {
     }
 }
 
-/// Takes what is no accessor out of a morph target, which has only these: exporters of VRM 0 wrote its name there, as
-/// `"extra": {"name": ...}`. \return the name, or empty
+/// Removes members that are not accessors from a morph target, which may only have accessors: some exporters of VRM 0
+/// wrote the target's name there, as `"extra": {"name": ...}`. \return the name, or empty
 std::string take_target_name(Json& target, const std::string& place, Report& report) {
     std::string name;
     for (const char* member : {"extra", "extras", "extensions", "name"}) {
@@ -448,7 +448,8 @@ std::string take_target_name(Json& target, const std::string& place, Report& rep
         const bool is_name = said != nullptr && said->is_string() && name.empty();
         if (is_name) name = said->get<std::string>();
         if (!is_name || found->size() > 1) {
-            report.warn("what a morph target has beside its accessors and its name is left out", place + '.' + member);
+            report.warn("members of a morph target that are neither accessors nor its name are left out",
+                        place + '.' + member);
         }
         target.erase(found);
     }

@@ -183,6 +183,10 @@ Json collect(const Json& object, const Shape& shape) {
 
 }  // namespace
 
+std::string_view known_members(Element element) {
+    return shape_of(element).known;
+}
+
 Json further_members(const Json& object, Element element) {
     return collect(object, shape_of(element));
 }

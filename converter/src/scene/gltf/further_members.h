@@ -61,6 +61,9 @@ enum class Element : std::uint8_t {
 /// The object's extensions are skipped, except for members that an interpreted extension does not define.
 Json further_members(const Json& object, Element element);
 
+/// The names of the members that the specification of 2.0 defines for an object, separated by spaces.
+std::string_view known_members(Element element);
+
 /// Removes the members that only glTF 2.1 has from an object, and returns their names.
 std::vector<std::string> take_drafts(Json& object, Element element);
 

@@ -1,6 +1,7 @@
 #include "scene/failure.h"
 #include "scene/frame_shapes.h"
 #include "scene/gltf_out/parts.h"
+#include "scene/source/normalise.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -61,15 +62,14 @@ constexpr std::uint32_t kMostMissing = 8;     // missing sets of texture coordin
 constexpr std::size_t kMostJoints = 0x10000;  // addressable by a 16-bit index
 
 /// Whether the sum of a vertex's weights is 1 to the Khronos validator: it adds floats, the first weight of each set,
-/// then the second ones, and allows 2e-7 for each weight that is not zero.
+/// then the second ones, and allows kWeightRounding for each weight that is not zero.
 bool sums_to_one(std::span<const float> weights) {
-    constexpr double kRounding = 2e-7;
     float sum = 0.0f;
     double tolerance = 0.0;
     for (std::size_t first = 0; first < std::min(kSetSize, weights.size()); ++first) {
         for (std::size_t i = first; i < weights.size(); i += kSetSize) {
             sum += weights[i];
-            tolerance += weights[i] != 0.0f ? kRounding : 0.0;
+            tolerance += weights[i] != 0.0f ? kWeightRounding : 0.0;
         }
     }
     return std::abs(double{sum} - 1.0) <= tolerance;

@@ -152,7 +152,7 @@ struct Recognised {
     FileKind kind;
 };
 
-/// What is there in place of a file that was not fetched.
+/// Stand-ins for a file that was never downloaded.
 constexpr std::array kStandIns{
     Recognised{"version https://git-lfs.github.com/spec/", kLfsPointer},
     Recognised{"version https://hawser.github.com/spec/", kLfsPointer},  // as Git LFS was called

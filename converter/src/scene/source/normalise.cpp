@@ -113,10 +113,6 @@ private:
     bool has_six_digits_ = false;
 };
 
-/// Allowed deviation of a sum of weights from 1, per weight in the sum: float rounding of decoded or stored weights.
-/// The same as the Khronos validator's.
-constexpr double kRounding = 2e-7;
-
 /// A weight below this is not a rounded zero.
 constexpr float kNegative = -1e-3f;
 
@@ -275,7 +271,7 @@ LargestBone normalise_influences(Influences& influences, const std::string& plac
         if (used == 0) {
             weights[0] = 1.0f;
             ++weightless;
-        } else if (std::abs(sum - 1.0) > kRounding * used) {
+        } else if (std::abs(sum - 1.0) > kWeightRounding * used) {
             for (std::size_t i = 0; i < n; ++i) weights[i] = static_cast<float>(static_cast<double>(weights[i]) / sum);
             ++unnormalised;
         }

@@ -39,6 +39,10 @@ struct LargestBone {
     std::size_t vertex = 0;
 };
 
+/// Allowed deviation of a sum of weights from 1, per weight in the sum: float rounding of decoded or stored weights.
+/// The same as the Khronos validator's.
+inline constexpr double kWeightRounding = 2e-7;
+
 /// Normalises the weights of each vertex to sum 1 over all sets: sums that deviate by more than float rounding are
 /// divided out (in double); vertices without weight follow their first bone. Duplicate bones are merged. Then moves
 /// influences without weight to the back, as bone 0. Fails at `place` on a clearly negative weight.

@@ -42,12 +42,12 @@ public:
     /// Returns the list at a pointer; an empty one if there is none.
     const NamedList& list(std::string_view pointer);
 
-    /// The new number of an element of a list; nothing: there is none. \param before, after  pointers to the list, with
-    /// the numbers of the lists around it as they were and as they become
+    /// The new number of a list's element, or nothing if it no longer exists. \param before, after  pointers to the
+    /// list, with the numbers of the lists around it as they were and as they become
     using NewElement =
         std::function<std::optional<std::uint32_t>(std::string_view before, std::string_view after, std::uint32_t)>;
-    /// Returns the pointer with new numbers for the elements of lists that it goes through, or nothing if there is no
-    /// such element now. A pointer that leads out of the extensions stays as it is.
+    /// Returns the pointer with the new numbers of the list elements that it passes through, or nothing if one of them
+    /// no longer exists. A pointer that leads out of the extensions does not change.
     [[nodiscard]] std::optional<std::string> with_elements(std::string_view pointer, const NewElement& now) const;
 
 private:
