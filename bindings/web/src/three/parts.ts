@@ -153,6 +153,9 @@ export async function makeParts(model: Model, materials: Materials, uniqueName: 
         const object = makeObject(topology, influences, geometry, threeMaterial);
         object.name = name;
         if (typeof mesh.extras === 'object') Object.assign(object.userData, mesh.extras);
+        // A file has each name once, in its target; glTF has them in the mesh's extras.
+        const targetNames = mesh.morphTargets.map((target) => target.name);
+        if (targetNames.length > 0 && targetNames.every(Boolean)) object.userData['targetNames'] = targetNames;
         mesh.morphTargets.forEach((target, k) => (object.morphTargetInfluences![k] = target.restWeight));
         return { object, mesh: mesh.number, submeshes: submeshes.map(({ number }) => number), joint };
       };
