@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstring>
 #include <string>
 #include <utility>
 #include <vector>
@@ -319,6 +320,87 @@ TEST(Roles, SayWhatIsWrong) {
     Log log;
     EXPECT_FALSE(set_role(test::sample_file(), {Role::hips, 0, "nobody"}, log));
     EXPECT_FALSE(set_role(test::sample_file(), {Role::hips, 0, "*"}, log));
+}
+
+/// The bytes with a material changed as by --set.
+Edited with_set(const Buffer& file, std::string_view text) {
+    const auto what = parse_set(text);
+    if (!what) return what.error();
+    Log log;
+    return set_material(file, *what, log);
+}
+
+SurfaceRecord surface_of(const Buffer& file, std::size_t material = 0) {
+    const Loaded loaded(file);
+    return loaded.document.materials.at(material).surface;
+}
+
+TEST(SetMaterial, ChangesOneField) {
+    const Buffer file = test::sample_file();
+    const std::string name(Loaded(file).document.materials.at(0).name);
+    SurfaceRecord surface = surface_of(file);
+    const auto set = [&](const std::string& field) {
+        const Edited edited = with_set(file, "material:" + name + '.' + field);
+        EXPECT_TRUE(edited) << edited.error().message;
+        return surface_of(*edited);
+    };
+    const auto expect_only = [&](const SurfaceRecord& found, const SurfaceRecord& wanted) {
+        EXPECT_EQ(std::memcmp(&found, &wanted, sizeof wanted), 0);
+    };
+    SurfaceRecord wanted = surface;
+    wanted.roughness = 0.4f;
+    expect_only(set("roughness=0.4"), wanted);
+    wanted = surface;
+    wanted.base_colour = {1.0f, 0.5f, 0.0f, 0.25f};
+    expect_only(set("base_colour=1,0.5,0,0.25"), wanted);
+    wanted = surface;
+    wanted.alpha_mode = static_cast<std::uint8_t>(AlphaMode::blend);
+    wanted.double_sided = surface.double_sided;
+    expect_only(set("alpha_mode=blend"), wanted);
+    wanted = surface;
+    wanted.normal_texture.rotation = -1.5f;
+    expect_only(set("normal_texture.rotation=-1.5"), wanted);
+    wanted = surface;
+    wanted.base_colour_texture.texture = kNone;
+    expect_only(set("base_colour_texture.texture=none"), wanted);
+    wanted.base_colour_texture.texture = 1;
+    expect_only(set("base_colour_texture.texture=#1"), wanted);
+}
+
+TEST(SetMaterial, NamesMayHaveDotsAndSignsOfEquality) {
+    const auto what = parse_set("material:a=b.roughness.001.base_colour_texture.scale=2,3");
+    ASSERT_TRUE(what) << what.error().message;
+    EXPECT_EQ(what->material, "a=b.roughness.001");
+    EXPECT_EQ(what->field, "base_colour_texture.scale");
+    EXPECT_EQ(what->value, "2,3");
+    EXPECT_EQ(parse_set("material:Wood.base_colour_texture.texture=a.roughness=1")->value, "a.roughness=1");
+}
+
+TEST(SetMaterial, SaysWhatIsWrong) {
+    const auto wrong = [](std::string_view text) {
+        const Edited edited = with_set(test::sample_file(), text);
+        return edited ? std::string() : edited.error().message;
+    };
+    EXPECT_EQ(wrong("Wood.roughness=1"), "\"Wood.roughness=1\" is not material:NAME.FIELD=VALUE");
+    EXPECT_EQ(wrong("material:Wood.roughness"), "\"material:Wood.roughness\" is not material:NAME.FIELD=VALUE");
+    EXPECT_EQ(wrong("material:#0.rough=1"),
+              "\"material:#0.rough=1\" names no field of a material, as in material:Wood.roughness=0.4; these are "
+              "base_colour, emissive, metallic, roughness, normal_scale, occlusion_strength, alpha_cutoff, alpha_mode, "
+              "double_sided, unlit; of base_colour_texture, metallic_roughness_texture, normal_texture, "
+              "occlusion_texture, emissive_texture: texture, coords, offset, scale, rotation");
+    EXPECT_EQ(wrong("material:#0.roughness=1.5"), "roughness takes a number, from 0 to 1, not \"1.5\"");
+    EXPECT_EQ(wrong("material:#0.roughness=x"), "roughness takes a number, from 0 to 1, not \"x\"");
+    EXPECT_EQ(wrong("material:#0.roughness=nan"), "roughness takes a number, from 0 to 1, not \"nan\"");
+    EXPECT_EQ(wrong("material:#0.normal_scale=1e300"), "normal_scale takes a number, not \"1e300\"");
+    EXPECT_EQ(wrong("material:#0.emissive=1,2"), "emissive takes 3 numbers with commas, 0 or more, not \"1,2\"");
+    EXPECT_EQ(wrong("material:#0.emissive=1,2,3,4"),
+              "emissive takes 3 numbers with commas, 0 or more, not \"1,2,3,4\"");
+    EXPECT_EQ(wrong("material:#0.unlit=2"), "unlit takes a number, 0 or 1, not \"2\"");
+    EXPECT_EQ(wrong("material:#0.alpha_mode=glass"), "alpha_mode is one word of \"opaque mask blend\", not \"glass\"");
+    EXPECT_NE(wrong("material:#0.normal_texture.texture=Bark").find("there is no texture \"Bark\""), std::string::npos);
+    EXPECT_NE(wrong("material:Nothing.roughness=1").find("there is no material \"Nothing\""), std::string::npos);
+    Log log;
+    EXPECT_FALSE(set_material(test::sample_file(), {"#0", "reserved", "0"}, log));
 }
 
 TEST(Names, Matches) {

@@ -295,6 +295,17 @@ def test_edits_that_fail_change_nothing(mannequin):
     assert bytes(edit.data) == mannequin.read_bytes() and edit.done == []
 
 
+def test_materials_are_changed(mannequin):
+    edit = bendy.edit(mannequin).set_material("Wood", "roughness", 0.4).set_material("Wood", "base_colour", (1, 0.5, 0, 1))
+    edit.set_material("*", "double_sided", True).set_material("Wood", "base_colour_texture.texture", None)
+    assert '"roughness": 0.4,' in json.dumps(bendy.dump(edit)) and '"roughness": 0.4,' not in json.dumps(bendy.dump(mannequin))
+    assert [line.split(": ")[1] for line in edit.done[:2]] == ["roughness is 0.4", "base_colour is 1.0,0.5,0.0,1.0"]
+    with pytest.raises(bendy.EditError, match="roughness, "):
+        edit.set_material("Wood", "shine", 1)
+    with pytest.raises(bendy.EditError, match="from 0 to 1"):
+        edit.set_material("Wood", "roughness", 2)
+
+
 @pytest.mark.parametrize("suffix, files", [("glb", 1), ("gltf", 2), ("x", 1)])
 def test_export_and_back(mannequin, tmp_path, suffix, files):
     made = bendy.export(mannequin, tmp_path / f"back.{suffix}")

@@ -197,6 +197,14 @@ class Edit(File):
         is it. Raises ValueError for another word."""
         return self._take(_bendy.set_role(self._source, f"{role}={'' if joint is None else joint}"))
 
+    def set_material(self, material, field, value):
+        """Changes a field of a material's SURF record: set_material("Wood", "roughness", 0.4), set_material("*", "base_colour", (1, 0.5, 0, 1)),
+        set_material("Wood", "alpha_mode", "blend"), set_material("Wood", "normal_texture.texture", None). Raises EditError for another
+        field, and lists them."""
+        numbers = [value] if isinstance(value, (int, float)) else value
+        text = "none" if value is None else value if isinstance(value, str) else ",".join(repr(float(number)) for number in numbers)
+        return self._take(_bendy.set_material(self._source, str(material), field, text))
+
     def extract(self, joint):
         """Keeps the joint with this name and its descendants, with everything that belongs to them."""
         return self._take(_bendy.extract(self._source, joint))

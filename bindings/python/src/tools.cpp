@@ -294,6 +294,13 @@ py::tuple set_role(const SourcePointer& source, const std::string& text) {
     return edited(source, [&](Bytes bytes, edit::Log& log) { return edit::set_role(bytes, *what, log); });
 }
 
+py::tuple set_material(const SourcePointer& source, const std::string& material, const std::string& field,
+                       const std::string& value) {
+    return edited(source, [&](Bytes bytes, edit::Log& log) {
+        return edit::set_material(bytes, {material, field, value}, log);
+    });
+}
+
 py::tuple extract_joint(const SourcePointer& source, const std::string& joint) {
     return edited(source, [&](Bytes bytes, edit::Log& log) { return edit::extract(bytes, joint, log); });
 }
@@ -489,6 +496,8 @@ void bind_tools(py::module_& module) {
     module.def("retarget_clips", &retarget_clips, py::arg("source"), py::arg("other"), py::arg("clip"),
                py::arg("same_name"), py::arg("options"), "See bendy.Edit.retarget_clips.");
     module.def("set_role", &set_role, py::arg("source"), py::arg("text"), "See bendy.Edit.set_role.");
+    module.def("set_material", &set_material, py::arg("source"), py::arg("material"), py::arg("field"),
+               py::arg("value"), "See bendy.Edit.set_material.");
     module.def("extract", &extract_joint, py::arg("source"), py::arg("joint"), "See bendy.Edit.extract.");
     module.def("change_clips", &change_clips, py::arg("source"), py::arg("word"), py::arg("texts"),
                "See bendy.Edit.trim, and others.");

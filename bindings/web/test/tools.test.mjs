@@ -199,6 +199,7 @@ for (const file of examples) {
       [await tools.changeClips(bytes, 'keep-clip', ['#0']), ['--keep-clip', '#0']],
       [await tools.setRole(bytes, 'tail:2', joint), ['--role', `tail:2=${joint}`]],
       [await tools.setRole(bytes, 'hips', null), ['--role', 'hips=']],
+      [await tools.setMaterial(bytes, '*', 'base_colour', [1, 0.5, 0, 1]), ['--set', 'material:*.base_colour=1,0.5,0,1']],
       [await tools.limitInfluences(bytes, 2), ['--influences', '2']],
       [await tools.mergeClips(bytes, bytes, { sameName: 'number' }), ['--same-name', 'number', '--merge', exact]],
     ];
@@ -210,6 +211,7 @@ for (const file of examples) {
     await assert.rejects(tools.strip(bytes, 'hats'), { kind: 'bad_argument' });
     await assert.rejects(tools.changeClips(bytes, 'trim', 'Run'), { kind: 'bad_argument' });
     await assert.rejects(tools.setRole(bytes, 'nose', joint), { kind: 'bad_argument' });
+    await assert.rejects(tools.setMaterial(bytes, '*', 'shine', 1), /roughness/);
   });
 
   test(`${name}: differences are the program's`, async () => {

@@ -308,6 +308,11 @@ Json run_set_role(const Json& request, Made& made) {
     return edited(request, made, [&](Bytes bytes, edit::Log& log) { return edit::set_role(bytes, what, log); });
 }
 
+Json run_set_material(const Json& request, Made& made) {
+    const edit::SetMaterial what{text_of(request, "material"), text_of(request, "field"), text_of(request, "value")};
+    return edited(request, made, [&](Bytes bytes, edit::Log& log) { return edit::set_material(bytes, what, log); });
+}
+
 Json run_extract(const Json& request, Made& made) {
     const std::string joint = text_of(request, "joint");
     return edited(request, made, [&](Bytes bytes, edit::Log& log) { return edit::extract(bytes, joint, log); });
@@ -418,6 +423,7 @@ constexpr std::array kTools{Tool{"convert", run_convert},
                             Tool{"rename", run_rename},
                             Tool{"mergeClips", run_merge_clips},
                             Tool{"retargetClips", run_retarget_clips},
+                            Tool{"setMaterial", run_set_material},
                             Tool{"setRole", run_set_role},
                             Tool{"extract", run_extract},
                             Tool{"changeClips", run_change_clips},

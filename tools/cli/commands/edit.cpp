@@ -183,6 +183,12 @@ private:
         push([what = *what](Bytes file, edit::Log& log) { return edit::set_role(file, what, log); });
     }
 
+    void add_set(const std::string& text) {
+        const auto what = edit::parse_set(text);
+        if (!what) throw CLI::ValidationError("--set", what.error().message);
+        push([what = *what](Bytes file, edit::Log& log) { return edit::set_material(file, what, log); });
+    }
+
     void add_merge(const std::string& path) {
         const edit::SameName same_name = read_same_name();
         add_other("merging", path, [same_name](Bytes file, Bytes other, edit::Log& log) {
@@ -243,6 +249,7 @@ const std::map<std::string, Steps::Maker> Steps::kMakers{{"--strip", &Steps::add
                                                          {"--rename-joint", &Steps::add_joint_rename},
                                                          {"--rename-joints", &Steps::add_table},
                                                          {"--role", &Steps::add_role},
+                                                         {"--set", &Steps::add_set},
                                                          {"--merge", &Steps::add_merge},
                                                          {"--retarget", &Steps::add_retarget},
                                                          {"--extract", &Steps::add_extract},
@@ -306,6 +313,9 @@ void add_edit(CLI::App& program) {
     add("--rename", "KIND:OLD=NEW; KIND is joint, clip, chain, mesh, target, material, texture or object");
     add("--role",
         "ROLE=JOINT: what a joint is in the body, as in left_hand=Hand.L or tail:2=Tail3; without JOINT, nobody");
+    add("--set",
+        "material:NAME.FIELD=VALUE, as in material:Wood.roughness=0.4, base_colour=1,0.5,0,1, alpha_mode=blend or "
+        "normal_texture.texture=Bark; any other FIELD lists them all");
     for (const edit::ClipWord& word : edit::clip_words())
         add("--" + std::string(word.word), std::string(word.shape) + ": " + std::string(word.help));
     add("--influences", "N: at most N influences per vertex, the largest, scaled to the same sum");

@@ -218,6 +218,15 @@ export function setRole(bytes: FileBytes, role: string, joint: string | null): P
   return edited({ do: 'setRole', text: `${role}=${joint ?? ''}` }, { 'a.bendy': asBytes(bytes) });
 }
 
+/**
+ * Changes a field of a material's SURF record: `setMaterial(bytes, 'Wood', 'roughness', 0.4)`, `setMaterial(bytes, '*', 'base_colour', [1, 0.5, 0, 1])`,
+ * `setMaterial(bytes, 'Wood', 'alpha_mode', 'blend')`, `setMaterial(bytes, 'Wood', 'normal_texture.texture', null)`. The error for another
+ * field lists them.
+ */
+export function setMaterial(bytes: FileBytes, material: string, field: string, value: number | readonly number[] | string | null): Promise<Edited> {
+  return edited({ do: 'setMaterial', material, field, value: value === null ? 'none' : String(value) }, { 'a.bendy': asBytes(bytes) });
+}
+
 /** Keeps the joint with this name and its descendants, with everything that belongs to them. */
 export function extract(bytes: FileBytes, joint: string): Promise<Edited> {
   return edited({ do: 'extract', joint }, { 'a.bendy': asBytes(bytes) });

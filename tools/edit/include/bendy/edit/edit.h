@@ -118,6 +118,21 @@ Result<SetRole, Problem> parse_role(std::string_view text);
 /// Returns the file in which the joint has the role, and nobody else; the role that it had before is free.
 Edited set_role(Bytes file, const SetRole& what, Log& log);
 
+/// A new value for a field of a material.
+struct SetMaterial {
+    std::string material;  ///< see find_named: all that it refers to are changed
+    std::string field;     ///< of SurfaceRecord in records.h, as in "roughness" or "normal_texture.scale"
+    /// Numbers with commas between them; the word of an enumeration's value; for a texture its name or number, or
+    /// "none".
+    std::string value;
+};
+
+/// Parses "material:Wood.roughness=0.4". A text without a field of a material is a problem that lists the fields.
+Result<SetMaterial, Problem> parse_set(std::string_view text);
+
+/// Returns the file in which the materials have this value. A value outside the field's range is a problem.
+Edited set_material(Bytes file, const SetMaterial& what, Log& log);
+
 /// How to handle a clip whose name is already taken.
 enum class SameName : std::uint8_t {
     error,    ///< reported as a problem
