@@ -2,6 +2,7 @@
 #include "capi/open_handles.h"
 #include "source_folder.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <filesystem>
@@ -182,6 +183,45 @@ TEST(CPose, ABadRequestMovesNothing) {
     requests[18].size = 4096;
     EXPECT_EQ(reach(requests), "requests have different sizes");
     EXPECT_EQ(bendy_reach_chains(pose.get(), nullptr, 0, nullptr, nullptr), BENDY_OK);
+}
+
+TEST(CPose, WhatAChainFollowsIsCarriedByDefault) {
+    ModelSpec spec;
+    spec.joints.resize(4);
+    spec.joints[1].parent = 0;
+    spec.joints[2].parent = 1;
+    spec.joints[1].rest.translation = spec.joints[2].rest.translation = {0.0f, 1.0f, 0.0f};
+    ChainRecord chain;
+    chain.start = 0;
+    chain.effector = 2;
+    chain.target = 3;
+    spec.chains.push_back(chain);
+    const ModelHandle model = open_copy(build_file(spec));
+    const std::array<float, 3> target{1.0f, 1.0f, 0.0f};
+    const bendy_reach_options defaults = BENDY_REACH_OPTIONS_INIT;
+    bendy_reach_options off = BENDY_REACH_OPTIONS_INIT;
+    off.carry_target = 0;
+    auto zeros = sized<bendy_reach_options>();
+    zeros.influence = 1.0f;
+    const auto followed = [&](const bendy_reach_options* options, bool is_alone) {
+        const PoseHandle pose = new_pose(model);
+        bendy_reach_request request = BENDY_REACH_REQUEST_INIT;
+        request.chain = 0;
+        std::copy(target.begin(), target.end(), request.position);
+        request.options = options;
+        EXPECT_EQ(is_alone ? bendy_reach(pose.get(), 0, target.data(), nullptr, options, nullptr, nullptr)
+                           : bendy_reach_chains(pose.get(), &request, 1, nullptr, nullptr),
+                  BENDY_OK);
+        bendy_transform local{};
+        EXPECT_EQ(bendy_get_local(pose.get(), 3, 1, &local, nullptr), BENDY_OK);
+        return glm::vec3(local.translation[0], local.translation[1], local.translation[2]);
+    };
+    for (const bool is_alone : {true, false}) {
+        for (const bendy_reach_options* const on : {static_cast<const bendy_reach_options*>(nullptr), &defaults})
+            EXPECT_LE(glm::length(followed(on, is_alone) - glm::vec3(1.0f, 1.0f, 0.0f)), 1e-3f);
+        for (const bendy_reach_options* const without : {&off, &zeros})
+            EXPECT_EQ(followed(without, is_alone), glm::vec3(0.0f));
+    }
 }
 
 // The library's defaults are the C++ ones.

@@ -41,6 +41,19 @@ def test_the_program_reaches_the_same(model, mannequin, posed):
     assert free.reached
 
 
+def test_what_a_chain_follows_is_carried(model):
+    chain = model.chains["IK_LeftArm"]
+    target = numpy.float32([0.3, 1.2, 0.4])
+    for reach in (lambda pose, **options: pose.reach(chain, target, **options),
+                  lambda pose, **options: pose.reach_chains([(chain, target, None, options)])):
+        pose = model.pose()
+        before = pose.socket(chain.target)[:3, 3].copy()
+        reach(pose, carry_target=False)
+        numpy.testing.assert_array_equal(pose.socket(chain.target)[:3, 3], before)
+        reach(pose)
+        numpy.testing.assert_allclose(pose.socket(chain.target)[:3, 3], target, atol=1e-3)
+
+
 def test_the_c_api_gives_the_same_numbers(model, mannequin):
     if "BENDY_LIBRARY" not in os.environ:
         pytest.skip("libbendy was not built as a shared library")

@@ -857,11 +857,14 @@ typedef struct bendy_reach_options {
     uint32_t ignore_constraints; /* 1: joints may turn beyond their limits; elsewhere: not obey_constraints */
     uint32_t has_pole;           /* 1: use `pole`; 0: use the chain's own pole */
     float pole[3];               /* two-bone, aim: a point in model space to bend towards */
-    uint32_t carry_target;       /* 1: afterwards, the joint that the chain follows is moved to the tip */
+    uint32_t carry_target; /* 1: afterwards, the joint that the chain follows is moved to the tip with its descendants,
+                              unless it is in, above or below the chain: a foot that is no child of its leg stays at
+                              the leg's end */
 } bendy_reach_options;
 
+/* The defaults, which differ from zeros: a struct of zeros sets `influence` and `carry_target` to 0, for example. */
 #define BENDY_REACH_OPTIONS_INIT \
-    { sizeof(bendy_reach_options), BENDY_SOLVER_ANY, 0, 8, 0.0f, 1.0f, 0.0f, 1.0f, 0.2f, 0, 0, {0.0f, 0.0f, 0.0f}, 0 }
+    { sizeof(bendy_reach_options), BENDY_SOLVER_ANY, 0, 8, 0.0f, 1.0f, 0.0f, 1.0f, 0.2f, 0, 0, {0.0f, 0.0f, 0.0f}, 1 }
 
 typedef enum bendy_reach_status {
     BENDY_REACHED = 0,      /* the tip is at the target, within the tolerance */
@@ -906,7 +909,8 @@ typedef struct bendy_reach_request {
 BENDY_API bendy_status bendy_reach_chains(bendy_pose* pose, const bendy_reach_request* requests, size_t count,
                                           bendy_reach_result* results /* or NULL, or one for each request */,
                                           bendy_error* error);
-/* Solves every chain that follows a target joint, in order of priority. */
+/* Solves every chain that follows a target joint, in order of priority. The joints that are followed stay where they
+ * are. */
 BENDY_API bendy_status bendy_reach_all(bendy_pose* pose, bendy_error* error);
 
 /* A point of a joint that is to reach for a target. */

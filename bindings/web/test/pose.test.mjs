@@ -136,7 +136,7 @@ test('reach goes to the target within the constraints, as the program', async ()
     for (const target of [[0.3, 1.2, 0.4], [0.1, 1.5, 0.3], [0.4, 0.9, 0.2], [2, 1, 0]]) {
       const pose = model.sample('Walk', 0.3).constrain();
       const chain = model.chains.get('IK_LeftArm');
-      const result = pose.reach('IK_LeftArm', target, { carryTarget: true });
+      const result = pose.reach('IK_LeftArm', target);
       for (const constraint of constrained) {
         if (!chain.links.includes(constraint.joint)) continue;
         const { violation } = model.clampRotation(constraint, pose.local(constraint.joint).rotation);
@@ -151,6 +151,24 @@ test('reach goes to the target within the constraints, as the program', async ()
     }
     model.dispose();
   }
+});
+
+test('what a chain follows is carried by default', async () => {
+  const model = await Model.open(read(example('mannequin')));
+  const [chain, position] = [model.chains.get('IK_LeftArm'), [0.3, 1.2, 0.4]];
+  const place = (pose) => Array.from(pose.socket(chain.target).slice(12, 15));
+  const before = place(model.pose());
+  for (const reach of [
+    (pose, options) => pose.reach(chain, position, options),
+    (pose, options) => pose.reachChains([{ chain, position, options }])[0],
+  ]) {
+    const pose = model.pose();
+    assert.ok(reach(pose, { carryTarget: false }).reached);
+    assert.deepEqual(place(pose), before);
+    assert.ok(reach(pose).reached);
+    assert.ok(difference(place(pose), position) < 1e-3);
+  }
+  model.dispose();
 });
 
 test('several chains reach as one after another', async () => {

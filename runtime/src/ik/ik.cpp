@@ -2,6 +2,7 @@
 
 #include <bendy/runtime/constrain.h>
 
+#include "ik_carry.h"
 #include "ik_problem.h"
 #include "ik_quick.h"
 #include "math/rigid_part.h"
@@ -20,11 +21,6 @@
 namespace bendy {
 
 namespace {
-
-glm::dvec3 tip_offset(const Chain& chain) {
-    const auto& offset = chain.record.tip_offset;
-    return {offset[0], offset[1], offset[2]};
-}
 
 /// One call of reach: converts between the model and the problem.
 class Reach {
@@ -366,20 +362,6 @@ private:
     bool is_uneven_ = false;  ///< a link before the last scales its axes unevenly
 };
 
-/// See ReachOptions::carry_target.
-void carry_target(const Chain& chain, Pose& pose) {
-    PoseState& state = PoseState::of(pose);
-    const std::uint32_t start = chain.record.start, target = chain.record.target;
-    const PosePlan& plan = *state.data->pose_plan;
-    if (target == kNone || plan.is_at_or_below(target, start) || plan.is_at_or_below(start, target)) return;
-    const glm::dvec4 tip = state.fresh_matrix(chain.record.effector) * glm::dvec4(tip_offset(chain), 1.0);
-    const glm::dmat4 space = state.fresh_matrix(state.data->parents[target]);
-    if (std::abs(glm::determinant(space)) < 1e-30) return;
-    JointTransform local = pose.local(target);
-    local.translation = glm::vec3(glm::inverse(space) * tip);
-    pose.set_local(target, local);
-}
-
 }  // namespace
 
 Result<ReachResult, CallError> reach(Pose& pose, const Chain* chain, const ReachTarget& target,
@@ -389,7 +371,7 @@ Result<ReachResult, CallError> reach(Pose& pose, const Chain* chain, const Reach
     std::optional<ReachResult> result = reach_quickly(*chain, target, pose, options);
     if (!result) result = reach_at_length(*chain, target, pose, options);
     if (!result) return CallError::not_finite;
-    if (options.carry_target) carry_target(*chain, pose);
+    carry_to_tip(*chain, carried_joint(*chain, pose, options), pose);
     return *result;
 }
 

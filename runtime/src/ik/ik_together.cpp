@@ -1,5 +1,6 @@
 #include <bendy/runtime/ik.h>
 
+#include "ik_carry.h"
 #include "ik_quick.h"
 #include "kernels/kernel_table.h"
 #include "math/rigid_part.h"
@@ -33,7 +34,8 @@ public:
     /// Returns true if a pending chain moves the joint.
     [[nodiscard]] bool will_move(std::uint32_t joint) const {
         return std::any_of(limbs_.begin(), limbs_.begin() + count_, [&](const Limb& limb) {
-            return plan_.is_at_or_below(joint, limb.request.chain->record.start);
+            return plan_.is_at_or_below(joint, limb.request.chain->record.start) ||
+                   (limb.carried != kNone && plan_.is_at_or_below(joint, limb.carried));
         });
     }
 
@@ -56,6 +58,7 @@ private:
     struct Limb {
         ReachRequest request;
         std::size_t number = 0;
+        std::uint32_t carried = kNone;  ///< see carried_joint
     };
 
     /// Adds a request to those that are solved side by side, if possible.
@@ -63,14 +66,14 @@ private:
         if constexpr (!kSolvesLimbsTogether) return false;
         if (kernels_.two_bones == nullptr || count_ == kLimbs) return false;
         const auto& [chain, target, options] = request;
-        if (!PoseState::of(pose_).data->check(chain) || options.carry_target || !is_finite(target) ||
+        if (!PoseState::of(pose_).data->check(chain) || !is_finite(target) ||
             !is_plain_limb(*chain, target, pose_, options)) {
             return false;
         }
         const bool depends = will_move(chain->record.start) || will_move(chain->record.effector) ||
                              (chain->record.pole != kNone && will_move(chain->record.pole));
         if (depends || !gather_limb(*chain, target, pose_, options, block_.limbs, count_)) return false;
-        limbs_[count_++] = {request, number};
+        limbs_[count_++] = {request, number, carried_joint(*chain, pose_, options)};
         return true;
     }
 
@@ -89,6 +92,7 @@ private:
         state.set_rotation(chain->record.start, glm::quat(upper));
         state.set_rotation(state.data->parents[chain->record.effector], glm::quat(lower));
         if (has_limits) make_end_legal(*chain, pose_, options);
+        carry_to_tip(*chain, limbs_[limb].carried, pose_);
         note(limbs_[limb].number, ReachResult{ReachStatus::reached, static_cast<float>(distance), 0.0f, 1});
         return true;
     }
@@ -138,6 +142,7 @@ void reach_all(Pose& pose) {
         ReachRequest request{&chain, glm::vec3(followed[3]), {}};
         if (chain.record.rotation_weight > 0.0f) request.target.rotation = glm::quat(rigid_rotation(followed));
         request.options.influence = chain.record.influence;
+        request.options.carry_target = false;  // what the chain follows is its goal
         together.add(request, number);
     }
     together.solve();

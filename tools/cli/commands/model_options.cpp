@@ -230,7 +230,6 @@ std::vector<Reached> reach_goals(const ReachRequest& request, const std::vector<
     ReachOptions options;
     options.solver = find_solver(request.solver);
     options.obey_constraints = !request.ignore_constraints;
-    options.carry_target = true;
     std::vector<Reached> results;
     results.reserve(goals.size());
     for (const ReachGoal& goal : goals) {

@@ -119,11 +119,9 @@ void Player::update() {
         pose_.set_rest();
     }
     if (obeys_constraints) constrain(pose_);
-    ReachOptions options;
-    options.carry_target = true;
     for (const std::uint32_t number : model_->chain_order()) {
         if (number < chains.size() && chains[number].is_on)
-            (void)reach(pose_, &model_->chains()[number], chains[number].target, options);
+            (void)reach(pose_, &model_->chains()[number], chains[number].target);
     }
 }
 

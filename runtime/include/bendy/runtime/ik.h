@@ -43,7 +43,7 @@ struct ReachOptions {
     /// Afterwards, moves the joint that the chain follows, with its descendants, to the tip: a foot that is not a child
     /// of its leg then stays at the leg's end. Has no effect if the chain follows no joint, or one that is in, above or
     /// below the chain.
-    bool carry_target = false;
+    bool carry_target = true;
 };
 
 enum class ReachStatus : std::uint8_t {
@@ -64,9 +64,9 @@ struct ReachResult {
 };
 
 /// Moves a chain of the pose's model so that its tip (the effector's tip offset) reaches the target. The current pose
-/// is the starting point, and is first brought inside the constraints. Joints outside the chain are unchanged, unless
-/// options.carry_target is set. Allocates nothing. With the plain kernel (kernels.h) the same input gives the same pose
-/// on every machine; with other kernels the joint matrices at the start may differ in the last digit.
+/// is the starting point, and is first brought inside the constraints. Joints outside the chain are unchanged, but for
+/// the one that options.carry_target moves. Allocates nothing. With the plain kernel (kernels.h) the same input gives
+/// the same pose on every machine; with other kernels the joint matrices at the start may differ in the last digit.
 ///     pull           Anderson's and Elias' force; one step per call, so it takes several frames to arrive
 ///     two_bone       closed form; in a longer chain, the start and a middle joint turn
 ///     ccd            cyclic coordinate descent, from the tip up
@@ -97,7 +97,8 @@ struct ReachRequest {
 [[nodiscard]] Result<void, CallError> reach(Pose& pose, std::span<const ReachRequest> requests,
                                             std::span<ReachResult> results = {});
 
-/// Solves every chain that follows a target joint, in order of priority, with each chain's own influence.
+/// Solves every chain that follows a target joint, in order of priority, with each chain's own influence. The joints
+/// that are followed stay where they are.
 void reach_all(Pose& pose);
 
 }  // namespace bendy
