@@ -22,7 +22,10 @@ export interface BodyReachOptions extends Omit<BendyBodyReachOptions, 'root'> {
 }
 
 /** How near the effectors came to their targets: the result of `Pose.reachBody`. */
-export interface BodyReached extends BendyBodyReached {}
+export interface BodyReached extends Omit<BendyBodyReached, 'isReached'> {
+  /** Whether every effector is at its target, within the tolerance. */
+  readonly reached: boolean;
+}
 
 /** The joints between a root and several effectors, such as hands, feet and head, for `Pose.reachBody`. Only making it allocates. */
 export class BodyReach extends MadeBodyReach {

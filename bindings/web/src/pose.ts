@@ -269,7 +269,8 @@ export class Pose extends MadePose {
    * as before.
    */
   reachBody(body: BodyReach, targets: readonly EffectorTarget[]): BodyReached {
-    return this.runtime.calls.bendy_reach_body(this, body, targets);
+    const { isReached: reached, ...result } = this.runtime.calls.bendy_reach_body(this, body, targets);
+    return { ...result, reached };
   }
 
   /** Computes 16 floats per joint, column by column: from joint space to model space or, if `world` (16 floats) is given, to it. */

@@ -11,7 +11,7 @@ import { Scene } from '@babylonjs/core/scene.js';
 import * as pc from 'playcanvas';
 import * as babylon from '../dist/engines/babylon.js';
 import * as playcanvas from '../dist/engines/playcanvas.js';
-import { bendy, corpusFile, convert, difference, example, extent, folder, plain, read, simd } from './helpers.mjs';
+import { bendy, corpusFile, convert, difference, example, exampleWithClipExtras, extent, folder, plain, read, simd } from './helpers.mjs';
 
 Logger.LogLevels = Logger.ErrorLogLevel;
 const mannequin = read(example('mannequin'));
@@ -245,6 +245,24 @@ for (const [name, load, place] of [
     assert.ok(difference(place(hand).slice(0, 3), expected.socket('mixamorig:LeftHand').slice(12, 15)) < 1e-5);
     assert.throws(() => character.attach('tail'), { name: 'BendyError', code: 'NOT_FOUND' });
     character.dispose();
+  });
+
+  test(`${name}: a clip repeats unless it is told not to, by play or by its extras`, async () => {
+    for (const [extras, options, isRepeated] of [
+      [undefined, {}, true],
+      [undefined, { loop: false }, false],
+      [{ loop: false }, {}, false],
+      [{ loop: false }, { loop: true }, true],
+      [{ loop: 0 }, {}, false],
+    ]) {
+      const character = await load(read(exampleWithClipExtras('mannequin', extras)));
+      assert.equal(character.model.clips.get('Walk').loops, false);
+      const { model, pose } = character;
+      const { start, end } = model.clips.get('Walk');
+      character.play('Walk', options).update(end - start + 0.1);
+      assert.ok(difference(pose.locals, model.sample('Walk', isRepeated ? start + 0.1 : end).locals) < 1e-5);
+      character.dispose();
+    }
   });
 
   test(`${name}: the runtime skins when it is asked to, in an instance of its own`, async () => {

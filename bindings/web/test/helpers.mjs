@@ -31,6 +31,22 @@ export function example(name, ...options) {
   return convert(join(repository, 'examples', `${name}.glb`), ...options);
 }
 
+/** Converts an example whose clips have these extras, or none, and returns the path of the result. */
+export function exampleWithClipExtras(name, extras) {
+  const glb = readFileSync(join(repository, 'examples', `${name}.glb`));
+  const rest = 20 + glb.readUInt32LE(12);
+  const gltf = JSON.parse(glb.subarray(20, rest));
+  for (const animation of gltf.animations) animation.extras = extras;
+  const text = JSON.stringify(gltf);
+  const json = Buffer.from(text.padEnd(4 * Math.ceil(text.length / 4)));
+  const head = Buffer.from(glb.subarray(0, 20));
+  head.writeUInt32LE(20 + json.length + glb.length - rest, 8);
+  head.writeUInt32LE(json.length, 12);
+  const file = join(folder, `${made++}.glb`);
+  writeFileSync(file, Buffer.concat([head, json, glb.subarray(rest)]));
+  return convert(file);
+}
+
 /** The bytes of a bendy file whose images are these links, one for each material. */
 export function linking(links) {
   const bytes = Buffer.from(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1]).buffer);

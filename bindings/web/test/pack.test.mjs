@@ -108,7 +108,7 @@ test('vite bundles react-three-fiber, whose vertices are those of the runtime, a
     const said = [];
     function say(what) {
       said.push(what);
-      if (said.length === 2) document.title = said.sort().join(', ');
+      if (said.length === 3) document.title = said.sort().join(', ');
     }
     let frames = 0;
     /** The largest distance of a vertex that three.js skins from the runtime's, as a share of a metre. */
@@ -133,9 +133,17 @@ test('vite bundles react-three-fiber, whose vertices are those of the runtime, a
       animator.apply();
       if (++frames === 3) say('fiber ' + (compare(animator) < 1e-5) + ' ' + (animator.pose.locals.some((x, k) => Math.abs(x - animator.character.model.pose().locals[k]) > 0.1)));
     }
+    let others = 0;
+    /** With joints: 'needed', the objects of joints stay at rest. */
+    function onOther({ character, pose }) {
+      if (++others !== 3) return;
+      const rest = character.model.pose().locals;
+      const isAt = ({ quaternion }, k) => quaternion.toArray().every((x, i) => Math.abs(x - rest[10 * k + i]) < 1e-6);
+      say('joints at rest ' + (character.joints.every(isAt) && pose.locals.some((x, k) => Math.abs(x - rest[k]) > 0.1)));
+    }
     const viewer = make(BendyViewer, { src: 'mannequin.bendy', clip: 'Walk', alt: 'A mannequin', cameraControls: true, onLoad: ({ model }) => say('viewer ' + model.clips.length), onError: (error) => say(String(error)) });
     const fiber = make(Canvas, { style: { width: 64, height: 64 } }, make(Suspense, { fallback: null },
-      make(Bendy, { src: 'mannequin.bendy', clip: 'Walk', position: [0, -1, 0], onFrame }), make(Bendy, { src: 'mannequin.bendy' })));
+      make(Bendy, { src: 'mannequin.bendy', clip: 'Walk', position: [0, -1, 0], onFrame }), make(Bendy, { src: 'mannequin.bendy', clip: 'Walk', joints: 'needed', onFrame: onOther })));
     createRoot(document.getElementById('root')).render(make(StrictMode, null, viewer, fiber));`);
-  assert.equal(title, 'fiber true true, viewer 2');
+  assert.equal(title, 'fiber true true, joints at rest true, viewer 2');
 });

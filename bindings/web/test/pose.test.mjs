@@ -218,8 +218,8 @@ test('both hands reach at the same time, and each option arrives', async () => {
     const body = new BodyReach(model, effectors);
     assert.equal(model.joints[body.root].name, 'mixamorig:Spine2');
     const pose = model.pose();
-    const { isReached, distance, iterations } = pose.reachBody(body, targets);
-    assert.ok(isReached && distance < 1e-3 && iterations > 0);
+    const result = pose.reachBody(body, targets);
+    assert.ok(result.reached && result.distance < 1e-3 && result.iterations > 0);
     effectors.forEach(({ joint }, k) => assert.ok(difference(origin(pose, joint), targets[k].position) < 1e-3));
 
     const reached = (options, wanted = targets, ends = effectors) => {

@@ -406,8 +406,11 @@ describe('BendyAnimator', { skip }, () => {
     expect(model.sample('Survey', 1).blend(model.sample('Walk', 0.3), 0.5));
     animator.update(0.1, () => animator.sample('Survey', 2));
     expect(model.sample('Survey', 2));
+    const { start, end } = model.clips.get('Walk');
+    animator.play('Walk').update(end - start + 0.1);
+    expect(model.sample('Walk', start + 0.1));
     animator.play('Walk', { loop: false, speed: 2 }).update(10);
-    expect(model.sample('Walk', model.clips.get('Walk').end));
+    expect(model.sample('Walk', end));
     assert.throws(
       () => animator.play('Fly'),
       (error) => error instanceof BendyError && error.code === 'NOT_FOUND',

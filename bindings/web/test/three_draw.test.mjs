@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import * as THREE from 'three';
 import { Model } from '../dist/index.js';
 import { BendyAnimator, BendyCrowd, BendyLoader, cloneCharacter } from '../dist/three/index.js';
-import { convert, example, folder, plain, read } from './helpers.mjs';
+import { convert, example, exampleWithClipExtras, folder, plain, read } from './helpers.mjs';
 
 const load = (name, ...options) => new BendyLoader().parseAsync(read(example(name, ...options)));
 const skeletonsOf = ({ parts }) => [...new Set(parts.flatMap(({ object }) => object.skeleton ?? []))];
@@ -196,6 +196,21 @@ function writeMoving(mode) {
   return convert(file);
 }
 
+test('a clip whose extras say that it does not loop plays once, in an animator and in a crowd', async () => {
+  const character = await new BendyLoader().parseAsync(read(exampleWithClipExtras('mannequin', { loop: false })));
+  const { start, end } = character.model.clips.get('Walk');
+  const last = character.model.sample('Walk', end);
+  const animator = new BendyAnimator(character).play('Walk').update(end - start + 0.1);
+  assertNear([Array.from(animator.pose.locals)], [Array.from(last.locals)]);
+  const crowd = new BendyCrowd(character, 1).play(0, 'Walk', { offset: end - start }).update(0.1);
+  const { crowdMatrices, crowdFirst } = uniformsOf(crowd.parts[0].material);
+  const palette = Array.from(last.palette(character.parts[0].mesh));
+  const first = 16 * crowdFirst.value;
+  assertNear([Array.from(crowdMatrices.value.image.data.slice(first, first + palette.length))], [palette]);
+  crowd.dispose();
+  animator.dispose();
+});
+
 test('joints that are points themselves move', async () => {
   const character = await new BendyLoader().parseAsync(read(writeMoving(0)));
   assert.equal(character.parts[0].object.type, 'Points');
@@ -244,6 +259,8 @@ test('a crowd has the matrices of its members, and advances them', async () => {
   expect(0, model.sample(walk, walk.end));
   expect(1, model.pose());
   expect(2, model.sample(walk, walk.start));
+  crowd.play(0, 'Walk', { offset: walk.seconds }).update(0.1);
+  expect(0, model.sample(walk, walk.start + 0.1));
   crowd.play(0, 'Walk', { speed: 1e300 }).update(1e300).update(0);
 
   for (const wrong of [() => crowd.play(3, 'Walk'), () => crowd.play(0, 'Walk', { speed: NaN }), () => crowd.setMatrixAt(-1, new THREE.Matrix4()),

@@ -17,8 +17,14 @@ export interface EngineOptions extends OpenOptions {
 export interface ClipOptions extends Omit<PlayOptions, 'playback'> {
   /** 1, if not given: as authored. */
   speed?: number;
-  /** Whether the clip repeats; as the clip says if not given. */
+  /** Whether the clip repeats. If not given: unless its `extras` have `"loop": false`. */
   loop?: boolean;
+}
+
+/** Whether a clip repeats if the caller does not say. `clip.loops` does not decide: glTF has no such flag, so it is false in most files. */
+export function repeats({ extras }: Clip): boolean {
+  const loop = (extras as { loop?: unknown } | null)?.loop;
+  return loop !== false && loop !== 0; // 0: as Blender writes booleans
 }
 
 /** Starts a clip that fades in over what plays. Throws NOT_FOUND, BAD_ARGUMENT. */
@@ -26,7 +32,7 @@ export function startClip(fade: CrossFade, clip: Key<Clip>, { speed, loop, ...op
   const playback = new Playback(fade.model, clip);
   try {
     if (speed !== undefined) playback.speed = speed;
-    if (loop !== undefined) playback.mode = loop ? 'repeat' : 'once';
+    playback.mode = (loop ?? repeats(playback.clip)) ? 'repeat' : 'once';
     if (playback.speed < 0) playback.seekShare(1);
     fade.play(clip, { ...options, playback });
   } finally {

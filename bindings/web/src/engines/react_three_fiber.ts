@@ -23,19 +23,19 @@ export function useBendy(src: string): BendyCharacter {
 /** Makes an animator for a character, and plays what `animator.play` starts, frame by frame. Null in the first render. */
 export function useBendyAnimator(
   character: BendyCharacter,
-  { skin = 'gpu', method = 'linear', paused = false, onFrame }: AnimatorOptions & Pick<BendyProps, 'paused' | 'onFrame'> = {},
+  { skin = 'gpu', method = 'linear', joints = 'all', paused = false, onFrame }: AnimatorOptions & Pick<BendyProps, 'paused' | 'onFrame'> = {},
 ): BendyAnimator | null {
   const [animator, setAnimator] = useState<BendyAnimator | null>(null);
   const current = useRef<BendyAnimator | null>(null);
   useEffect(() => {
-    const made = new BendyAnimator(character, { skin, method });
+    const made = new BendyAnimator(character, { skin, method, joints });
     current.current = made;
     setAnimator(made);
     return () => {
       current.current = null;
       made.dispose();
     };
-  }, [character, skin, method]);
+  }, [character, skin, method, joints]);
   useFrame((_, seconds) => current.current?.update(paused ? 0 : seconds, onFrame));
   return animator;
 }
@@ -56,12 +56,13 @@ export interface BendyProps extends AnimatorOptions, Omit<AnimatorPlayOptions, '
 
 /** A character that plays a clip. Several components with the same `src` share its geometries and materials. */
 export function Bendy(props: BendyProps): ReactElement {
-  const { src, clip, fade = 0.3, speed, loop, skin, method, paused, onFrame, ref, children, ...group } = props;
+  const { src, clip, fade = 0.3, speed, loop, skin, method, joints, paused, onFrame, ref, children, ...group } = props;
   const shared = useBendy(src);
   const character = useMemo(() => cloneCharacter(shared), [shared]);
   const animator = useBendyAnimator(character, {
     ...(skin && { skin }),
     ...(method && { method }),
+    ...(joints && { joints }),
     ...(paused && { paused }),
     ...(onFrame && { onFrame }),
   });

@@ -16,6 +16,7 @@ import {
   RGBAFormat,
 } from 'three';
 import { BendyError, type Clip, Crowd, type Key, type Mesh } from '../index.js';
+import { repeats } from '../engines/player.js';
 import { described } from '../errors.js';
 import { checkIndex } from '../items.js';
 import type { BendyCharacter } from './character.js';
@@ -28,7 +29,7 @@ export interface CrowdPlayOptions {
   offset?: number;
   /** 1, if not given: as authored. Negative plays backwards. */
   speed?: number;
-  /** Whether the clip repeats: true if not given. */
+  /** Whether the clip repeats. If not given: unless its `extras` have `"loop": false`. */
   loop?: boolean;
 }
 
@@ -200,11 +201,12 @@ export class BendyCrowd extends Group {
   }
 
   /** Starts a clip, which `update` plays. Throws NOT_FOUND, BAD_ARGUMENT. */
-  play(member: number, clip: Key<Clip>, { offset = 0, speed = 1, loop = true }: CrowdPlayOptions = {}): this {
+  play(member: number, clip: Key<Clip>, { offset = 0, speed = 1, loop }: CrowdPlayOptions = {}): this {
     if (!Number.isFinite(offset) || !Number.isFinite(speed)) {
       throw new BendyError('bad_argument', `offset ${offset} and speed ${speed} must be finite numbers`);
     }
-    this.#playing[this.#check(member)] = { clip: this.character.model.clips.get(clip), speed, loop, time: offset };
+    const found = this.character.model.clips.get(clip);
+    this.#playing[this.#check(member)] = { clip: found, speed, loop: loop ?? repeats(found), time: offset };
     return this;
   }
 

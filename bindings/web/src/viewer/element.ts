@@ -339,7 +339,7 @@ export class BendyViewerElement extends BaseElement {
     const clip = this.clip ?? (animator.clips.length > 0 ? 0 : '');
     try {
       if (clip === '') this.#stage!.rest();
-      else animator.play(clip, { fade, loop: true }); // glTF does not say which clips repeat
+      else animator.play(clip, { fade });
     } catch (error) {
       this.#fail(error);
     }
