@@ -13,6 +13,10 @@ import pytest
 from conftest import ROOT
 
 
+# Of docs/python.md: without a package index.
+OFFLINE, = re.findall(r"^venv/bin/pip install( .+) \.$", (ROOT / "docs/python.md").read_text(encoding="utf-8"), re.M)
+
+
 def install(tmp_path, *what):
     """Into a fresh environment. Returns its Python, and the variables to run it with."""
     if "BENDY_BUILD_DIR" not in os.environ:
@@ -20,8 +24,8 @@ def install(tmp_path, *what):
     venv.create(tmp_path / "venv", system_site_packages=True, with_pip=False, symlinks=True)
     python = tmp_path / "venv/bin/python"
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    subprocess.run([python, "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-deps", "--no-index",
-                    "--no-cache-dir", "--disable-pip-version-check", *what], check=True, env=environment)
+    subprocess.run([python, "-m", "pip", "install", "--quiet", *OFFLINE.split(), "--no-cache-dir",
+                    "--disable-pip-version-check", *what], check=True, env=environment)
     return python, environment
 
 

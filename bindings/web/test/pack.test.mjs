@@ -2,7 +2,7 @@
 // has bundled it, alone and with React.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { copyFileSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { copyFileSync, lstatSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -15,16 +15,22 @@ const project = mkdtempSync(join(tmpdir(), 'bendy-pack-'));
 const run = (command, ...args) => execFileSync(command, args, { cwd: project, encoding: 'utf8', stdio: ['ignore', 'pipe', 'inherit'] });
 
 before(() => {
-  execFileSync('npm', ['pack', '--silent', '--pack-destination', project], { cwd: web, stdio: 'ignore' });
-  const [archive] = readdirSync(project);
   writeFileSync(join(project, 'package.json'), '{"type": "module"}');
-  run('npm', 'install', '--silent', '--offline', '--no-audit', '--no-save', `./${archive}`);
+  // The lines of docs/web.md, with this folder's paths.
+  for (const [, command, path] of readFileSync(join(repository, 'docs/web.md'), 'utf8').matchAll(/^npm (pack|install) (\S+)/gm)) {
+    run('npm', command, '--silent', '--offline', '--no-audit', path.replace(/^\.\//, command === 'pack' ? `${repository}/` : './'));
+  }
   for (const name of ['three', 'react', 'react-dom', '@react-three']) symlinkSync(join(web, 'node_modules', name), join(project, 'node_modules', name));
   mkdirSync(join(project, 'public'));
   copyFileSync(join(repository, 'examples/mannequin.glb'), join(project, 'public/mannequin.glb'));
   writeFileSync(join(project, 'public/mannequin.bendy'), read(example('mannequin')));
 });
 after(() => rmSync(project, { recursive: true }));
+
+test('the package is no link to a folder, whose own three.js would be a second one', () => {
+  const installed = join(project, 'node_modules/bendy');
+  assert.ok(lstatSync(installed).isDirectory() && !readdirSync(installed).includes('node_modules'));
+});
 
 test('node converts and poses: the lines of README.md', () => {
   const blocks = [...readFileSync(join(project, 'node_modules/bendy/README.md'), 'utf8').matchAll(/^```js\n(.*?)^```$/gms)].map(([, code]) => code);
