@@ -12,7 +12,8 @@
 #include <bendy/format/diagnostics.h>
 #include <bendy/runtime.h>
 
-#include <glm/gtc/matrix_transform.hpp>
+#include "one_view.h"
+
 #include <glm/gtc/type_ptr.hpp>
 
 #include <array>
@@ -36,9 +37,6 @@ uniform vec4 base;
 out vec4 colour;
 void main() { colour = vec4(base.rgb * (0.35 + 0.65 * max(0.0, dot(normalize(side), vec3(0.36, 0.80, 0.48)))), base.a); })";
 
-constexpr int kWidth = 640;
-constexpr int kHeight = 480;
-
 GLuint compile(GLenum kind, const char* text) {
     const GLuint shader = glCreateShader(kind);
     glShaderSource(shader, 1, &text, nullptr);
@@ -56,32 +54,15 @@ GLuint make_program() {
     return linked != 0 ? program : 0;
 }
 
-/// Returns a camera in front of the character (which faces +Z) that sees all of it at rest.
-glm::mat4 see_all(const std::vector<glm::vec3>& positions) {
+/// Returns a camera that sees all of the character at rest.
+glm::mat4 camera_for(const std::vector<glm::vec3>& positions) {
     glm::vec3 low(INFINITY);
     glm::vec3 high(-INFINITY);
     for (const glm::vec3& position : positions) {
         low = glm::min(low, position);
         high = glm::max(high, position);
     }
-    const glm::vec3 middle = (low + high) * 0.5f;
-    const float size = glm::length(high - low);
-    const glm::vec3 eye = middle + size * glm::vec3(0.36f, 0.2f, 0.95f);
-    return glm::perspective(glm::radians(45.0f), float{kWidth} / kHeight, size * 0.01f, size * 10.0f) *
-           glm::lookAt(eye, middle, glm::vec3(0.0f, 1.0f, 0.0f));
-}
-
-bool write_picture(const char* path) {
-    std::vector<unsigned char> pixels(std::size_t{3} * kWidth * kHeight);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, kWidth, kHeight, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
-    std::FILE* file = std::fopen(path, "wb");
-    if (file == nullptr) return false;
-    std::fprintf(file, "P6 %d %d 255\n", kWidth, kHeight);
-    for (int row = kHeight - 1; row >= 0; --row) {
-        std::fwrite(pixels.data() + std::size_t{3} * kWidth * static_cast<std::size_t>(row), 3, kWidth, file);
-    }
-    return std::fclose(file) == 0;
+    return see_all(low, high);
 }
 
 /// The model's vertices in one buffer, positions first, then normals; its index lists, mesh after mesh, in another.
@@ -156,7 +137,7 @@ int show(GLFWwindow* window, const bendy::Model& model, int frames, const char* 
     bendy::Lod lod(model);
     if (!bendy::skin(pose, {.out = {.positions = buffers.positions}})) return 1;
     glUniformMatrix4fv(glGetUniformLocation(program, "camera"), 1, GL_FALSE,
-                       glm::value_ptr(see_all(buffers.positions)));
+                       glm::value_ptr(camera_for(buffers.positions)));
     const GLint base = glGetUniformLocation(program, "base");
 
     std::size_t clip = 0;

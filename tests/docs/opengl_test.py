@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The OpenGL example draws the character, and it moves: opengl_test.py PROGRAM FILE.bendy"""
+"""An OpenGL example draws the character, and it moves: opengl_test.py PROGRAM FILE.bendy"""
 
 import os
 import subprocess

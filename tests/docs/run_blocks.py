@@ -14,6 +14,7 @@
 A comment before a block says where else it is run, or why it is not:
 
     <!-- run by tests/install -->    the place must exist
+    <!-- lines of examples/a.cpp --> the block's lines are in that file, in their order; "..." stands for any lines
     <!-- not run: needs Blender -->  listed when the test ends
 
 A comment names figures in the text that a command prints; each must be in what it prints now, and in the page:
@@ -37,7 +38,7 @@ import tempfile
 from pathlib import Path
 
 FENCE = re.compile(r"^```(\w*)\s*$")
-COMMENT = re.compile(r"^<!-- (run by|not run:) (.+) -->$")
+COMMENT = re.compile(r"^<!-- (run by|lines of|not run:) (.+) -->$")
 FIGURES = re.compile(r"^<!-- printed by: (?:(?!-->)[^|])+(?:\s\|\s(?:(?!-->)[^|])+)+ -->$", re.MULTILINE)
 # What the parts of functions in the pages may name beside what they declare.
 PARTS = """
@@ -137,6 +138,11 @@ class Runner:
         if missing is not None:
             self.fault(block, "not what is printed, from this line on:\n    " + missing + "\nprinted:\n" + "\n".join(self.printed))
 
+    def check_lines(self, block, file):
+        missing = same_lines(["...", *(line.strip() for line in block.text.splitlines()), "..."], [line.strip() for line in file.splitlines()])
+        if missing is not None:
+            self.fault(block, "not in the file, from this line on:\n    " + missing)
+
     def run_program(self, block, suffix):
         if suffix == ".cpp" and "int main(" not in block.text:
             self.parts.append(block)
@@ -185,7 +191,9 @@ class Runner:
             if kind == "not run:":
                 self.not_run.append(f"{block}: {where}")
             elif not (Path(self.options.source) / where).exists():
-                self.fault(block, f"is said to be run by {where}, which is not there")
+                self.fault(block, f"is said to be in {where}, which is not there")
+            elif kind == "lines of":
+                self.check_lines(block, (Path(self.options.source) / where).read_text(encoding="utf-8"))
             return
         if block.language == "text":
             if self.printed is not None:
