@@ -22,7 +22,7 @@ def read():
     """(name, kind, default, words that it may be, help) of each option; a default of Python, None if there is none."""
     by_key = text_of(re.search(r"kByKey = (.*?);", (REPORTS / "convert_options.h").read_text(encoding="utf-8"), re.DOTALL)[1])
     text = (REPORTS / "convert_options.def").read_text(encoding="utf-8")
-    listed = re.findall(r'^BENDY_CONVERT_OPTION\((\w+), (\w+), (.*?), (".*?"), ".*?",\s*(.*?)\)$', text, re.MULTILINE | re.DOTALL)
+    listed = re.findall(r'^BENDY_CONVERT_OPTION\((\w+), (\w+), (.*?), (".*?"), ".*?", ".*?",\s*(.*?)\)$', text, re.MULTILINE | re.DOTALL)
     assert len(listed) == len(re.findall("^BENDY_CONVERT_OPTION", text, re.MULTILINE)), "an option that is not read"
     defaults = {"{}": "None", "false": "False", "true": "True"}
     return [(name, kind, defaults.get(default, default), text_of(words).split(), text_of(help).replace("{key}", by_key))

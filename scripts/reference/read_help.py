@@ -22,6 +22,7 @@ class Option:
     excludes: list[str] = field(default_factory=list)
     about: str = ""
     files: list[str] | None = None  # None: no file; []: any; else the extensions, with their dots
+    group: str = ""  # its heading in the help; "" for the first one, and for a positional argument
 
     @property
     def is_flag(self):
@@ -72,6 +73,14 @@ class Command:
     commands: list["Command"] = field(default_factory=list)
 
     @property
+    def groups(self):
+        """Pairs of heading and options: those under "Options", after the positional arguments, have no heading."""
+        groups = {"": [*self.arguments]}
+        for option in self.options:
+            groups.setdefault(option.group, []).append(option)
+        return groups.items()
+
+    @property
     def usage(self):
         """The usage after `bendy`."""
         if self.commands:
@@ -96,6 +105,7 @@ class Command:
 
 
 SECTIONS = {"Positionals:": "arguments", "Options:": "options", "Subcommands:": "commands"}
+GROUP = re.compile(r"([A-Z][^:]*):")  # the heading of further options
 COLUMN = 30  # where CLI11 begins the description of an option
 
 # The left side of an option's line: names, TYPE:{a,b}=default, ..., REQUIRED, Needs: ..., Excludes: ...
@@ -139,9 +149,12 @@ def read_page(text, name):
     command = Command(name, lines[0], [], [], [])
     names = []
     section = None
+    group = ""
     for line, following in zip(lines[1:], [*lines[2:], ""]):
         if line in SECTIONS:
             section = SECTIONS[line]
+        elif section == "options" and (heading := GROUP.fullmatch(line)):
+            group = heading[1]
         elif section and line.startswith(" " * COLUMN):
             continue  # was read with the line before
         elif section and line.startswith("  "):
@@ -149,7 +162,9 @@ def read_page(text, name):
             if section == "commands":
                 names.append(left)
             else:
-                getattr(command, section).append(_read_option(left, about, name))
+                option = _read_option(left, about, name)
+                option.group = group
+                getattr(command, section).append(option)
         elif line and not line.startswith("Usage: "):
             command.footer.append(line)
             section = None

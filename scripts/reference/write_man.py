@@ -21,7 +21,7 @@ def _program_page(program, exit_status):
     page += "changes them.\nEach command has a page of its own.\n.SH COMMANDS\n"
     for command in program.commands:
         page += f".TP\n.BR bendy\\-{command.name} (1)\n{_text(command.about)}.\n"
-    page += _options(program.options) + _exit_status(exit_status)
+    page += _options(program) + _exit_status(exit_status)
     page += ".SH ENVIRONMENT\n.TP\n.B BENDY_KERNEL\nWith which instructions of the processor characters are posed and skinned: plain, sse4, "
     page += "avx2 or neon.\nThe quickest that the machine has, if not given.\n"
     return page + _see_also([f"bendy-{command.name}" for command in program.commands])
@@ -33,20 +33,24 @@ def _command_page(command, exit_status):
     page += f".SH DESCRIPTION\n{_text(command.about)}.\n"
     if command.prose:
         page += ".PP\n" + "".join(f"{_text(line)}\n" for line in command.prose)
-    page += _options(command.arguments + command.options) + _exit_status(exit_status)
+    page += _options(command) + _exit_status(exit_status)
     if command.examples:
         page += ".SH EXAMPLES\n.EX\n" + "".join(f"{_text(example)}\n" for example in command.examples) + ".EE\n"
     return page + _see_also(["bendy"])
 
 
-def _options(options):
+def _options(command):
     text = ".SH OPTIONS\n"
-    for option in options:
-        names = ", ".join(rf"\fB{_text(name)}\fR" if name.startswith("-") else rf"\fI{name}\fR" for name in option.names)
-        if option.value and option.names[0].startswith("-"):
-            names += rf" \fI{_text(option.value)}\fR"
-        text += f".TP\n{names}\n{_text('. '.join([option.about, *option.notes]))}.\n"
+    for group, options in command.groups:
+        text += (f".SS {_text(group)}\n" if group else "") + "".join(_option(option) for option in options)
     return text
+
+
+def _option(option):
+    names = ", ".join(rf"\fB{_text(name)}\fR" if name.startswith("-") else rf"\fI{name}\fR" for name in option.names)
+    if option.value and option.names[0].startswith("-"):
+        names += rf" \fI{_text(option.value)}\fR"
+    return f".TP\n{names}\n{_text('. '.join([option.about, *option.notes]))}.\n"
 
 
 def _exit_status(exit_status):

@@ -22,17 +22,20 @@ def write_markdown(program, exit_status):
 
 
 def _section(command):
-    text = f"\n## bendy {command.name}\n\n{command.about}.\n\n```text\nbendy {command.usage}\n```\n\n| | |\n|---|---|\n"
-    for option in command.arguments + command.options:
-        if option.names == ["-h", "--help"]:
-            continue
-        names = [f"`{name}`" for name in option.names]
-        if option.value and option.names[0].startswith("-"):
-            names[-1] = f"`{option.names[-1]} {option.value}`".replace("|", "\\|")
-        about = ". ".join([option.about, *option.notes]).replace("|", "\\|")
-        text += f"| {', '.join(names)} | {about} |\n"
+    text = f"\n## bendy {command.name}\n\n{command.about}.\n\n```text\nbendy {command.usage}\n```\n"
+    for group, options in command.groups:
+        text += (f"\n{group}:\n" if group else "") + "\n| | |\n|---|---|\n"
+        text += "".join(_row(option) for option in options if option.names != ["-h", "--help"])
     if command.prose:
         text += "\n" + "\n".join(command.prose) + "\n"
     if command.examples:
         text += "\n```sh\n" + "\n".join(command.examples) + "\n```\n"
     return text
+
+
+def _row(option):
+    names = [f"`{name}`" for name in option.names]
+    if option.value and option.names[0].startswith("-"):
+        names[-1] = f"`{option.names[-1]} {option.value}`".replace("|", "\\|")
+    about = ". ".join([option.about, *option.notes]).replace("|", "\\|")
+    return f"| {', '.join(names)} | {about} |\n"

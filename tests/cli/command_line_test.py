@@ -34,8 +34,16 @@ class CommandLine(Case):
     def test_version(self):
         self.assertRegex(self.done("--version").decode(), r"^bendy \d+\.\d+\.\d+\n$")
 
-    def test_no_command_is_wrong(self):
-        self.assertIn("--help", self.misused())
+    def test_no_arguments_ask_for_help(self):
+        self.assertEqual(self.done(), self.done("--help"))
+
+    def test_help_of_convert_begins_with_the_common_options(self):
+        groups = self.done("convert", "--help").decode().split("\n\n")
+        common = next(group for group in groups if group.startswith("Options:\n"))
+        for option in ("-o,--output", "--compact", "--max-error", "--auto-rig", "--lod", "-q,--quiet", "-v,--verbose"):
+            self.assertIn(f"\n  {option} ", common)
+        self.assertNotIn("--ticks-per-second", common)
+        self.assertLess(len(common.splitlines()), 16)
 
     def test_an_unknown_command_is_named(self):
         self.assertIn("dance", self.misused("dance"))

@@ -156,11 +156,19 @@ class Convert(Case):
             {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": nodes}))
         result = self.bendy("convert", "legs.gltf", "--auto-rig")
         self.assertEqual(result.returncode, 0)
+        self.assertEqual(result.stderr.decode(),
+                         "bendy: proposed: legs.gltf: 2 IK chains (LeftLeg, RightLeg), limits of 6 joints (LeftUpLeg, "
+                         "RightUpLeg, LeftLeg, RightLeg, LeftFoot and 1 more); --verbose lists them\n")
+        self.assertNotIn(b"proposed", result.stdout)
+        result = self.bendy("convert", "legs.gltf", "--auto-rig", "--verbose")
+        self.assertEqual(result.returncode, 0)
         lines = result.stderr.decode().splitlines()
-        self.assertIn("bendy: proposed: chain LeftLeg: LeftUpLeg > LeftLeg > LeftFoot, two_bone, "
+        self.assertEqual(len(lines), 8)
+        self.assertIn("bendy: proposed: legs.gltf: chain LeftLeg: LeftUpLeg > LeftLeg > LeftFoot, two_bone, "
                       "knee points forward", lines)
-        self.assertIn("bendy: proposed: left knee, LeftLeg: hinge about (1.00, 0.00, 0.00), 0 to 135 degrees", lines)
-        self.assertTrue(all(line.startswith("bendy: proposed: ") for line in lines), lines)
+        self.assertIn("bendy: proposed: legs.gltf: left knee, LeftLeg: hinge about (1.00, 0.00, 0.00), 0 to 135 degrees",
+                      lines)
+        self.assertTrue(all(line.startswith("bendy: proposed: legs.gltf: ") for line in lines), lines)
         self.assertNotIn(b"proposed", result.stdout)
         self.assertEqual(self.bendy("convert", "legs.gltf", "--auto-rig", "--quiet").stderr, b"")
         self.done("validate", "legs.bendy")
@@ -398,10 +406,11 @@ class ConvertAutoSkin(Case):
         return file.write(self.folder / "m.gltf")
 
     def test_vertices_are_bound_and_counted(self):
-        result = self.bendy("convert", self.write_model(), "--auto-skin")
+        self.write_model()
+        result = self.bendy("convert", "m.gltf", "--auto-skin")
         self.assertEqual(result.returncode, 0)
         self.assertEqual(result.stderr.decode(),
-                         "bendy: proposed: skin of mesh 'body': 6 vertices bound to 2 joints\n")
+                         "bendy: proposed: m.gltf: skin of mesh 'body': 6 vertices bound to 2 joints\n")
         self.assertIn(b"up to 1 influence a vertex", result.stdout)
         self.done("validate", "m.bendy")
         result = self.bendy("convert", "m.gltf", "--skeleton", "High")

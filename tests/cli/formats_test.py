@@ -26,6 +26,23 @@ from mesh_file import read_obj  # noqa: E402
 from program import SOURCE, Case, main  # noqa: E402
 
 
+class ReadableFormats(Case):
+    def test_documentation_lists_what_the_program_reads(self):
+        listed = re.search(r"^Convert characters \((.*?)\)", self.done("convert", "--help").decode())[1]
+
+        def paragraph(file, beginning):
+            text = (SOURCE / file).read_text(encoding="utf-8")
+            return text[text.index(beginning):].split("\n\n")[0]
+
+        page = paragraph("docs/convert.md", "`bendy convert` reads")
+        self.assertEqual(", ".join(re.findall(r"`(\.\w+)`", page)), listed)
+        dropped = re.findall(r" (\.\w+)", paragraph("docs/web.md", "`scripts/web.sh` also makes"))
+        self.assertEqual(set(dropped), {*listed.split(", "), ".bendy"})
+        for file in ("bindings/python/bendy/__init__.py", "bindings/web/src/tools/index.ts"):
+            self.assertIn(f"Converts another format ({listed})", (SOURCE / file).read_text(encoding="utf-8"))
+        self.assertIn(f"a file of another format ({listed})", paragraph("bindings/python/bendy/__init__.py", "\ndef open(source"))
+
+
 class FromBendy(Case):
     def test_a_file_converts_to_itself(self):
         for name in ("mannequin", "tentacle"):

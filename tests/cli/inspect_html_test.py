@@ -202,6 +202,24 @@ class Structure(Case):
         self.assertEqual([base64.b64decode(image["src"].partition(",")[2], validate=True) for image in images], pictures)
         self.assertTrue(pictures)
 
+    def test_equal_warnings_are_one_line_with_names(self):
+        def flagged(name, flag):
+            return {"name": name, "translation": [0, 1, 0],
+                    "extensions": {"BENDY_joint_limits": {"limits": [
+                        {"model": "hinge", "x": [-1, 1], "scope": scope, flag: True} for scope in ("ikOnly", "allButIk")]}}}
+
+        file = GltfFile(nodes=[{"name": "Root", "children": [1, 2, 3, 4, 5, 6, 7, 8]},
+                               *[flagged(f"Finger{k}", "proposed") for k in range(7)], flagged("Tail", "approximated")],
+                        scenes=[{"nodes": [0]}], extensionsUsed=["BENDY_joint_limits"])
+        file.write(self.folder / "flags.gltf")
+        result = self.bendy("convert", "-q", "flags.gltf", "-o", "flags.bendy")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        warnings = data_of(self.page("flags"))["warnings"]
+        self.assertEqual([warning["text"] for warning in warnings["list"]], [
+            "joint constraints approximate the source, which Bendy cannot represent exactly: Tail",
+            "joint constraints proposed by --auto-rig, not by an author: Finger0, Finger1, Finger2, Finger3, Finger4 and 2 more"])
+        self.assertEqual(warnings["total"], 2)
+
     def test_hostile_text_stays_text(self):
         page = self.page("hostile")
         block = page[page.index('id="data">') + 10 :]

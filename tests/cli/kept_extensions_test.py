@@ -2,11 +2,12 @@
 """Numbers in extensions that are kept as JSON name the same things after conversion, export and editing."""
 
 import json
+import re
 import struct
 import sys
 
 from gltf_file import GltfFile
-from program import Case, main
+from program import SOURCE, Case, main
 
 BONES = ("hips", "spine", "chest", "head")
 
@@ -201,6 +202,20 @@ class Kept(Case):
             self.assertEqual(now["constraints"], {})
             if version == 1:
                 self.assertEqual(now["springs"], [])
+
+
+class MaterialExtensions(Case):
+    def test_only_what_render_does_not_draw_has_a_warning(self):
+        drawn = set(re.findall(r'"(KHR_materials_\w+)"', (SOURCE / "tools/viewer/src/materials.cpp").read_text()))
+        self.assertGreaterEqual(len(drawn), 3)
+        for name in (*drawn, "KHR_materials_clearcoat", "KHR_materials_sheen"):
+            file = GltfFile(scenes=[{"nodes": [0]}], nodes=[{"mesh": 0}], materials=[{"extensions": {name: {}}}],
+                            extensionsUsed=[name])
+            corners = file.add([(0, 0, 0), (1, 0, 0), (0, 1, 0)], "VEC3")
+            file.document["meshes"] = [{"primitives": [{"attributes": {"POSITION": corners}, "material": 0}]}]
+            result = self.bendy("convert", file.write(self.folder / "m.gltf"), "-q")
+            self.assertEqual(result.returncode, 0)
+            self.assertEqual(f"kept as JSON, not interpreted: {name}" in result.stderr.decode(), name not in drawn, name)
 
 
 if __name__ == "__main__":

@@ -133,6 +133,13 @@ class PoseCommand(Case):
         self.assertEqual([document["time"] for document in documents], [0, 0.1, 0.2, 0.3])
         self.assertEqual(len({document["reaches"][0]["distance"] for document in documents}), 4)
 
+    def test_a_solver_that_makes_one_step_says_so(self):
+        for solver, is_said in (("pull", True), ("ccd", False)):
+            said = self.bendy("pose", self.convert(), "--reach", "IK_LeftArm=0.1,1.25,-0.2", "--solver", solver, "-o", "p.obj")
+            self.assertEqual(said.returncode, 0)
+            self.assertRegex(said.stderr, rb"falls short of its target by \d+ mm")
+            self.assertEqual(said.stderr.endswith(b": pull makes a single step in each pose; the other solvers finish\n"), is_said)
+
     def test_frames_outside_the_clip_are_said(self):
         result = self.bendy("pose", self.convert(), "--clip", "Walk", "--frames", "0..2@1", "-o", "o#.obj")
         self.assertEqual(result.returncode, 0)

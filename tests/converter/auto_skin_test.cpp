@@ -153,7 +153,7 @@ std::vector<std::string> bind(Scene& scene, const std::string& skeleton = {}) {
     const auto bound = auto_skin(scene, skeleton, report);
     std::vector<std::string> lines = test::lines_of(report);
     if (!bound) lines.push_back("error: " + bound.error().message);
-    lines.insert(lines.end(), report.proposals().begin(), report.proposals().end());
+    for (const Proposal& proposal : report.proposals()) lines.push_back(proposal.line);
     return lines;
 }
 

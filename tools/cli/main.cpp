@@ -17,6 +17,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
@@ -73,7 +74,6 @@ std::string unexpected(const CLI::App& command, const std::vector<std::string>& 
 
 /// The arguments that the command requires, as in its usage: positional ones first, in order.
 std::string missing(const CLI::App& command) {
-    if (command.get_parent() == nullptr) return "a command is missing; there are " + enumerate(commands_of(command));
     std::vector<std::string> places;
     std::vector<std::string> options;
     for (const CLI::Option* option : command.get_options()) {
@@ -119,8 +119,18 @@ std::vector<std::string> with_help_as_option(std::vector<std::string> words) {
     return words;
 }
 
+/// CLI11's help, with one empty line between groups of options in place of two.
+class HelpFormatter : public CLI::Formatter {
+public:
+    std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+        return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, std::move(name), mode), "\n\n\n", "\n\n");
+    }
+};
+
 int run(std::vector<std::string> words) {
+    if (words.empty()) words = {"--help"};
     CLI::App program("Bendy: animated characters in one file of nested chunks.", "bendy");
+    program.formatter(std::make_shared<HelpFormatter>());
     program.allow_windows_style_options(false);  // /folder/file is a file on all systems
     program.set_version_flag("--version", "bendy " BENDY_VERSION);
     program.require_subcommand(1);
@@ -188,7 +198,7 @@ int main(int argc, char** argv) {
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "bendy: error: %s\n", bendy::tools::printable(problem.what()).c_str());
     } catch (...) {
-        std::fputs("bendy: error: something that has no name went wrong\n", stderr);
+        std::fputs("bendy: error: an unknown error occurred\n", stderr);
     }
     return kFailed;
 }

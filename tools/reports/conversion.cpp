@@ -24,7 +24,8 @@ void add_remarks(Json& json, const converter::Report& report) {
     for (const converter::Warning& warning : report.warnings())
         warnings.push_back({{"message", warning.message}, {"place", warning.first_place}, {"count", warning.count}});
     json["warnings"] = std::move(warnings);
-    json["proposals"] = report.proposals();
+    Json& proposals = json["proposals"] = Json::array();
+    for (const converter::Proposal& proposal : report.proposals()) proposals.push_back(proposal.line);
     json["suggestions"] = report.suggestions();
 }
 

@@ -25,6 +25,7 @@ struct ConvertArguments : ConvertChoices {
     bool force = false;
     bool json = false;
     bool quiet = false;
+    bool verbose = false;
 };
 
 /// Returns the options for converting a single file, with as many threads as there are jobs.

@@ -23,6 +23,7 @@ struct ConvertOption {
     std::string_view name;      ///< as in Python: `merge_clips`
     std::string_view values;    ///< the words that it accepts, separated by spaces; empty: any
     std::string_view excludes;  ///< names of options that exclude it, separated by spaces
+    std::string_view group;     ///< its heading in the program's help; empty: among the common ones
     std::string_view help;      ///< for the program; {key} stands for kByKey
 
     /// The name in the program: `--merge-clips`.
@@ -38,15 +39,15 @@ std::vector<std::string> words_of(std::string_view text);
 
 /// The values of those options.
 struct ConvertChoices {
-#define BENDY_CONVERT_OPTION(kind, name, standard, values, excludes, help) option::kind name = standard;
+#define BENDY_CONVERT_OPTION(kind, name, standard, values, excludes, group, help) option::kind name = standard;
 #include "reports/convert_options.def"
 };
 
 /// Calls visit(option, value) for each option of convert_options.def.
 template <class Choices, class Visit>
 void visit_options(Choices& choices, const Visit& visit) {
-#define BENDY_CONVERT_OPTION(kind, name, standard, values, excludes, help) \
-    visit(ConvertOption{#name, values, excludes, help}, choices.name);
+#define BENDY_CONVERT_OPTION(kind, name, standard, values, excludes, group, help) \
+    visit(ConvertOption{#name, values, excludes, group, help}, choices.name);
 #include "reports/convert_options.def"
 }
 

@@ -97,14 +97,13 @@ void add_numbers(std::string& text, std::string_view name, const std::array<floa
     if (numbers != usual) add_part(text, std::string(name) + ' ' + brief(numbers) + std::string(unit));
 }
 
-/// Returns the name of a joint, or "joint 12" if it has none.
+}  // namespace
+
 std::string joint_name(const SkeletonView& skeleton, std::uint32_t joint) {
     if (joint >= skeleton.joints.size()) return "no joint " + std::to_string(joint);
     const std::string_view name = skeleton.joints[joint].name;
     return name.empty() ? "joint " + std::to_string(joint) : brief(name);
 }
-
-}  // namespace
 
 std::string constraint_text(const ConstraintRecord& constraint) {
     constexpr Triple kNothing{};

@@ -32,6 +32,9 @@ std::string_view name_at(const std::array<std::string_view, N>& names, std::size
 /// Describes a constraint, with angles in degrees: "hinge 0 to 150 deg, IK only, proposed".
 std::string constraint_text(const ConstraintRecord& constraint);
 
+/// Returns the name of a joint, or "joint 12" if it has none.
+std::string joint_name(const SkeletonView& skeleton, std::uint32_t joint);
+
 /// The joints, and the names for the numbers in IKCH, KINF and PULL. Works on any tree, whatever its records hold, in
 /// time linear in its size; the tree must outlive this.
 class RigIndex {

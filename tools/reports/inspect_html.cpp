@@ -59,18 +59,39 @@ private:
     std::size_t total_ = 0;
 };
 
-void warn_of_rig(const ObjectView& object, Warnings& warnings) {
-    const auto warn_of_flags = [&](std::uint32_t chunk, std::uint8_t flags, const std::string& what) {
-        if ((flags & kApproximated) != 0)
-            warnings.add(chunk, what + " is approximated: the source says more, or something else");
-        if ((flags & kProposed) != 0) warnings.add(chunk, what + " is proposed by --auto-rig; nobody has authored it");
-    };
-    for (const ConstraintView& constraint : object.skeleton.constraints) {
-        warn_of_flags(constraint.chunk, constraint.record.flags, "the constraint");
-        if ((constraint.record.flags & kRestOutside) != 0)
-            warnings.add(constraint.chunk, "the rest pose is outside the constraint, and the author knows");
+/// Adds one warning for all constraints of joints, or chains, with a flag.
+template <class View, class NameOf>
+void warn_of_flag(const std::vector<View>& views, std::uint8_t flag, const std::string& what, const NameOf& name_of,
+                  Warnings& warnings) {
+    std::uint32_t first = kNone;
+    std::vector<std::string> names;
+    for (const View& view : views) {
+        if ((view.record.flags & flag) == 0) continue;
+        if (names.empty()) first = view.chunk;
+        const std::string name = name_of(view);
+        if (names.empty() || names.back() != name) names.push_back(name);  // a joint may have several constraints
     }
-    for (const ChainView& chain : object.chains) warn_of_flags(chain.chunk, chain.record.flags, "the IK chain");
+    if (!names.empty()) warnings.add(first, what + ": " + some_of(names));
+}
+
+void warn_of_rig(const ObjectView& object, Warnings& warnings) {
+    constexpr std::string_view kApproximately = " approximate the source, which Bendy cannot represent exactly";
+    constexpr std::string_view kGuessed = " proposed by --auto-rig, not by an author";
+    const auto warn_of_constraints = [&](std::uint8_t flag, const std::string& what) {
+        const auto joint_of = [&](const ConstraintView& constraint) {
+            return joint_name(object.skeleton, constraint.joint);
+        };
+        warn_of_flag(object.skeleton.constraints, flag, what, joint_of, warnings);
+    };
+    const auto warn_of_chains = [&](std::uint8_t flag, const std::string& what) {
+        warn_of_flag(
+            object.chains, flag, what, [](const ChainView& chain) { return brief(chain.name); }, warnings);
+    };
+    warn_of_constraints(kApproximated, "joint constraints" + std::string(kApproximately));
+    warn_of_constraints(kProposed, "joint constraints" + std::string(kGuessed));
+    warn_of_constraints(kRestOutside, "the rest pose is outside these joints' constraints, intentionally");
+    warn_of_chains(kApproximated, "IK chains" + std::string(kApproximately));
+    warn_of_chains(kProposed, "IK chains" + std::string(kGuessed));
 }
 
 Json warnings_json(const InspectedFile& file) {

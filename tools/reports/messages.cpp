@@ -66,6 +66,29 @@ std::string about_faults(const Faults& faults, Bytes bytes) {
            describe_with_place(faults.list().front(), bytes);
 }
 
+/// "2 IK chains (LeftLeg, RightLeg), limits of 1 joint (LeftFoot)"
+std::string count_by_kind(const std::vector<converter::Proposal>& proposals) {
+    using converter::Proposal;
+    struct Words {
+        Proposal::Kind kind;
+        std::string_view before, one, many;
+    };
+    constexpr std::array kWords{Words{Proposal::Kind::chain, "", "IK chain", "IK chains"},
+                                Words{Proposal::Kind::limits, "limits of ", "joint", "joints"},
+                                Words{Proposal::Kind::skin, "skins of ", "mesh", "meshes"}};
+    std::string line;
+    for (const Words& words : kWords) {
+        std::vector<std::string> names;
+        for (const Proposal& proposal : proposals) {
+            if (proposal.kind == words.kind) names.push_back(proposal.name);
+        }
+        if (names.empty()) continue;
+        add_part(line, words.before);
+        line += counted(names.size(), words.one, words.many) + " (" + some_of(names) + ')';
+    }
+    return line;
+}
+
 bool shows_colour(Stream stream) {
     static const char* const refused = std::getenv("NO_COLOR");  // NOLINT(concurrency-mt-unsafe): nothing changes it
     static const bool on_output = is_terminal(Stream::output);
@@ -174,6 +197,14 @@ std::string brief(std::string_view text) {
     return shown;
 }
 
+std::string some_of(const std::vector<std::string>& names) {
+    constexpr std::size_t kMost = 5;
+    std::string text;
+    for (std::size_t k = 0; k < names.size() && k < kMost; ++k) add_part(text, names[k]);
+    if (names.size() > kMost) text += " and " + grouped(names.size() - kMost) + " more";
+    return text;
+}
+
 void add_part(std::string& line, std::string_view part) {
     if (!line.empty()) line += ", ";
     line += part;
@@ -224,8 +255,16 @@ void print_warnings(const std::filesystem::path& file, const converter::Report& 
         std::cerr << "bendy: note: " << shown_name(file) << ": " << printable(line) << '\n';
 }
 
-void print_proposals(const converter::Report& report) {
-    for (const std::string& line : report.proposals()) std::cerr << "bendy: proposed: " << printable(line) << '\n';
+void print_proposals(const std::filesystem::path& file, const converter::Report& report, bool is_verbose) {
+    const std::vector<converter::Proposal>& proposals = report.proposals();
+    const auto print = [&](std::string_view line) {
+        std::cerr << "bendy: proposed: " << shown_name(file) << ": " << printable(line) << '\n';
+    };
+    if (is_verbose || proposals.size() <= 1) {
+        for (const converter::Proposal& proposal : proposals) print(proposal.line);
+        return;
+    }
+    print(count_by_kind(proposals) + "; --verbose lists them");
 }
 
 void print_fault_lines(std::ostream& out, const std::filesystem::path& file, const Faults& faults, Bytes bytes) {

@@ -59,6 +59,9 @@ std::string brief(const std::array<float, N>& numbers) {
 /// Returns the first 72 bytes of a text, escaped; "..." if it was cut.
 std::string brief(std::string_view text);
 
+/// "Hips, Spine"; of more than five names the first five, and how many more there are.
+std::string some_of(const std::vector<std::string>& names);
+
 /// Adds a part to a line, after ", " if it is not the first.
 void add_part(std::string& line, std::string_view part);
 
@@ -90,8 +93,8 @@ void warn(const std::filesystem::path& file, std::string_view what);
 
 /// Prints what a conversion has left out or changed, and its suggestions, one per line, to standard error.
 void print_warnings(const std::filesystem::path& file, const converter::Report& report);
-/// Prints its guesses in the same way.
-void print_proposals(const converter::Report& report);
+/// Prints its guesses in the same way: all, or, unless `is_verbose`, one line with how many there are of each kind.
+void print_proposals(const std::filesystem::path& file, const converter::Report& report, bool is_verbose);
 
 /// Prints a line for each fault: the file, the code, the fault and its position.
 void print_fault_lines(std::ostream& out, const std::filesystem::path& file, const Faults& faults, Bytes bytes);

@@ -346,8 +346,8 @@ class Chunk:
 
 
 def open(source, *, object=0, check_sums=True, copied=False, root=None):
-    """Opens a character. A path is mapped; a file that is not a bendy file (glTF, X-files, Quake II models) is converted in memory,
-    and Model.conversion has the warnings. For files that nothing reads (FBX, USD, ...) the ConversionError names their format.
+    """Opens a character. A path is mapped; a file of another format (.gltf, .glb, .vrm, .vrma, .x, .md2, .bvh) is converted
+    in memory, and Model.conversion has the warnings. For files that nothing reads (FBX, USD, ...) the ConversionError names their format.
 
     object: which object of the file. check_sums: False defers the check of all bytes to Model.check_sums. copied: True reads a path
     into memory, for files that another program may make shorter, which ends a program that has them mapped. root: as for convert.
@@ -375,7 +375,8 @@ def _plain(value):
 
 def convert(source, output=None, *, name="source.glb", jobs=0, progress=None, overwrite=False,
             **options: "convert_options"):
-    """Converts glTF, X-files, Quake II models and bendy files to a bendy file, exactly unless compact. Returns a Conversion.
+    """Converts another format (.gltf, .glb, .vrm, .vrma, .x, .md2, .bvh), or a bendy file, to a bendy file, exactly unless compact.
+    Returns a Conversion.
 
     output: the path to write; None: nothing is written, see File.save. name: of a source that is bytes, preceded by the folder of the
     files that it refers to; without a folder, only root counts. jobs: the most threads for making a compact file; 0: one per

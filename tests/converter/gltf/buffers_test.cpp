@@ -37,7 +37,7 @@ TEST(GltfBuffers, DataUris) {
     expect_point(import_buffer(R"({"byteLength":12,"uri":"data:;base64,AACAPwAA%41EAAAEBA"})"));
     expect_point(import_buffer(R"({"byteLength":12,"uri":"data:,%00%00%80%3f%00%00%00%40%00%00%40%40"})"));
     EXPECT_EQ(import_buffer(R"({"byteLength":12,"uri":"data:;base64,AA!A"})").message(),
-              "data URI: character 2 of the base64 text is none of its alphabet");
+              "data URI: character 2 of the base64 text is not in the base64 alphabet");
     EXPECT_EQ(import_buffer(R"({"byteLength":12,"uri":"data:nothing"})").message(), "data URI without a comma");
     EXPECT_EQ(import_buffer(R"({"byteLength":12,"uri":"data:,%4"})").message(),
               "data URI: '%' without two hexadecimal digits");

@@ -98,6 +98,26 @@ TEST(GltfMaterial, UnlitIsAFieldOtherExtensionsStayAsJson) {
     EXPECT_EQ(import.report.warnings().size(), 1u);
 }
 
+// A warning that most characters bring is a warning that nobody reads.
+TEST(GltfMaterial, ExtensionsThatAreDrawnAreKeptWithoutAWarning) {
+    Gltf gltf = make_triangle();
+    Json& extensions = gltf.json["materials"][0]["extensions"];
+    extensions = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 3}}},
+                  {"KHR_materials_ior", {{"ior", 1.25}}},
+                  {"KHR_materials_specular", {{"specularFactor", 0.5}}}};
+    const Import import = gltf.import();
+    EXPECT_EQ(Json::parse(import->materials.at(0).extensions), extensions);
+    EXPECT_TRUE(import.report.warnings().empty());
+    extensions["KHR_materials_specular"] = "odd";
+    EXPECT_TRUE(gltf.import().report.warnings().empty());
+
+    // The renderer reads the factors only.
+    for (const char* texture : {"specularTexture", "specularColorTexture"}) {
+        extensions["KHR_materials_specular"] = {{texture, {{"index", 0}}}};
+        EXPECT_EQ(gltf.import().warned("kept as JSON, not interpreted: KHR_materials_specular"), 1u);
+    }
+}
+
 TEST(GltfMaterial, ExtensionsOfferThePreferredImageFirst) {
     Gltf gltf = make_triangle();
     gltf.json["images"] = {{{"bufferView", gltf.add_view(kPng)}}, {{"bufferView", gltf.add_view(kKtx2)}}};

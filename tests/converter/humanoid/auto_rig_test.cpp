@@ -36,10 +36,17 @@ struct Rigged {
         return count;
     }
     [[nodiscard]] bool proposes(std::string_view line) const {
-        for (const std::string& proposal : report.proposals()) {
-            if (proposal == line) return true;
+        for (const Proposal& proposal : report.proposals()) {
+            if (proposal.line == line) return true;
         }
         return false;
+    }
+    /// What is proposed for a joint or chain of that name.
+    [[nodiscard]] std::string line_of(std::string_view name) const {
+        for (const Proposal& proposal : report.proposals()) {
+            if (proposal.name == name) return proposal.line;
+        }
+        return {};
     }
 };
 
@@ -155,6 +162,8 @@ TEST(AutoRig, ABentElbowIsBentAlready) {
     EXPECT_NEAR(high(rigged.constraint("leftLowerArm"), 0), 150 - 1.0 / kTestDegree, 1e-3);
     EXPECT_EQ(low(rigged.constraint("rightLowerArm"), 0), 0);
     EXPECT_GT(high(rigged.constraint("rightLowerArm"), 0), 150);
+    EXPECT_TRUE(rigged.line_of("leftLowerArm").ends_with(", -57 to 93 degrees, straight at -57"));
+    EXPECT_TRUE(rigged.line_of("rightLowerArm").ends_with(" degrees, straight at 5"));
 }
 
 TEST(AutoRig, TheZeroOfAnAPoseIsMoved) {

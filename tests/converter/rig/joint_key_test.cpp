@@ -43,7 +43,7 @@ TEST(RigJointKey, ABackslashTakesTheSpecialMeaning) {
 
 TEST(RigJointKey, BrokenKeysAreRefused) {
     const auto error = [](std::string_view key) { return failure_of([&] { parse_joint_key(key, "joints.k"); }); };
-    EXPECT_EQ(error(R"(a\)"), "joints.k: it ends in a backslash that stands before nothing");
+    EXPECT_EQ(error(R"(a\)"), "joints.k: it ends in a backslash that escapes nothing");
     EXPECT_EQ(error("[ab"), "joints.k: it has a [ without a ]");
     EXPECT_EQ(error(R"([ab\])"), "joints.k: it has a [ without a ]");
     EXPECT_EQ(error("a[]b"), "joints.k: it has an empty []");

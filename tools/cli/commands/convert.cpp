@@ -162,7 +162,7 @@ void convert_file(const ConvertArguments& arguments, NamedBy named) {
     }
     const std::vector<std::byte> bytes = convert_and_write(arguments, named, report);
     print_warnings(input, report);
-    if (!arguments.quiet) print_proposals(report);
+    if (!arguments.quiet) print_proposals(input, report, arguments.verbose);
     if (!arguments.quiet) print_summary(arguments, bytes, !report.compact);
     if (!arguments.quiet) print_embedded(report.embedded(), summary_stream(arguments.output));
     if (!arguments.quiet && report.compact) print_compact(*report.compact, summary_stream(arguments.output));
@@ -225,8 +225,10 @@ void add_options(CLI::App& command, ConvertArguments& arguments) {
             place = command.add_option(option.flag(), value, option.full_help());
             if (!option.values.empty()) place->check(one_of(words_of(option.values)))->capture_default_str();
         }
+        if (!option.group.empty()) place->group(std::string(option.group));
     });
-    added["exact"] = command.add_flag("--exact", arguments.exact, "keep every number exactly; this is the default");
+    added["exact"] = command.add_flag("--exact", arguments.exact, "keep every number exactly; this is the default")
+                         ->group("What is kept");
     visit_options(arguments, [&](const ConvertOption& option, const auto&) {
         for (const std::string& other : words_of(option.excludes))
             added.at(std::string(option.name))->excludes(added.at(other));
@@ -252,23 +254,34 @@ void add_convert(CLI::App& program) {
                          "in them and below, bendy files apart")
         ->required();
     command->add_option("-o,--output", arguments->output,
-                        "where to write; the input's name with .bendy if not given. Of several inputs or a folder: the "
-                        "folder to write to, which is made, and where files from a folder have the places that they "
-                        "have in it; beside each input if not given");
+                        "where to write; the input's name with .bendy if not given. For several inputs or a folder, "
+                        "the folder to write to: it is created if need be, and files from a folder keep their places "
+                        "in it; beside each input if not given");
+    add_options(*command, *arguments);
+    command->add_flag("--force", arguments->force,
+                      "overwrite outputs that bendy did not write (with -o FILE that is always allowed); with several "
+                      "inputs, also convert files that have not changed");
+    CLI::Option* const quiet =
+        command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
+    command
+        ->add_flag("-v,--verbose", arguments->verbose,
+                   "list everything that --auto-rig and --auto-skin propose, one line each")
+        ->excludes(quiet);
+    constexpr const char* kMany = "Several files, scripts and build systems";
     command
         ->add_option("-j,--jobs", arguments->jobs,
                      "with several inputs, how many to convert at a time; with one and --compact, how many threads "
                      "to use, which does not change the output; one per processor if not given")
-        ->check(CLI::Range(1u, 1024u));
-    command->add_flag("--force", arguments->force,
-                      "overwrite outputs that bendy did not write (with -o FILE that is always allowed); with several "
-                      "inputs, also convert files that have not changed");
-    command->add_flag("--json", arguments->json,
-                      "print one JSON object per input, each on one line, instead of the summary and warnings");
-    command->add_option("--depfile", arguments->depfile,
-                        "for a single input: write the files that were read as a rule for Make or Ninja");
-    add_options(*command, *arguments);
-    command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
+        ->check(CLI::Range(1u, 1024u))
+        ->group(kMany);
+    command
+        ->add_flag("--json", arguments->json,
+                   "print one JSON object per input, each on one line, instead of the summary and warnings")
+        ->group(kMany);
+    command
+        ->add_option("--depfile", arguments->depfile,
+                     "for a single input: write the files that were read as a rule for Make or Ninja")
+        ->group(kMany);
     command->footer(
         "Everything is kept exactly, unless you use --compact. A warning names what the format cannot store.\nExample: "
         "bendy convert fox.glb -o build/fox.bendy\n         bendy convert *.glb\n         bendy convert models/ -o "

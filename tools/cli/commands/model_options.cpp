@@ -91,7 +91,7 @@ std::string gap_of(const ReachGoal& goal, const ReachResult& result) {
     if (result.status == ReachStatus::aimed) return gap + " away";
     std::ostringstream angle;
     angle << std::setprecision(3) << result.angle * 57.29578f << " degrees";
-    if (goal.is_aim) return angle.str();
+    if (goal.is_aim()) return angle.str();
     return goal.target.rotation ? gap + " and " + angle.str() : gap;
 }
 
@@ -121,7 +121,7 @@ ReachGoal parse_goal(const std::string& text, Solver solver, const std::filesyst
         target.rotation = glm::normalize(rotation);
     }
     const Chain& chain = find_chain(file, model, text.substr(0, equals));
-    return {&chain, target, (solver == Solver::any ? chain.solver() : solver) == Solver::aim};
+    return {&chain, target, solver == Solver::any ? chain.solver() : solver};
 }
 
 }  // namespace
@@ -205,7 +205,11 @@ void add_reach(CLI::App& command, ReachRequest& request) {
                            "after the clip, move an IK chain's tip to a point: CHAIN=X,Y,Z in metres; or "
                            "with an orientation, CHAIN=X,Y,Z,QX,QY,QZ,QW; may be repeated. A chain that falls short of "
                            "its target is reported with what is left, and is not an error");
-    command.add_option("--solver", request.solver, "for --reach; chain: the solver that the file names")
+    command
+        .add_option(
+            "--solver", request.solver,
+            "for --reach; chain: the solver that the file names. pull makes a single step towards the target in "
+            "each pose; the others finish")
         ->check(one_of(solver_names()))
         ->capture_default_str()
         ->needs(reach);
@@ -244,7 +248,7 @@ void ReachTally::add(const std::vector<ReachGoal>& goals, const std::vector<Reac
     for (std::size_t k = 0; k < results.size(); ++k) {
         Count& count = counts_[k];
         if (!has_reached(results[k])) ++count.short_ones;
-        if (count.poses++ != 0 && !is_worse(results[k], count.worst, goals[k].is_aim)) continue;
+        if (count.poses++ != 0 && !is_worse(results[k], count.worst, goals[k].is_aim())) continue;
         count.worst = results[k];
         count.time = time;
     }
@@ -270,7 +274,11 @@ void ReachTally::print(const std::filesystem::path& file, const Model& model,
             text << chain << " falls short of its target by " << (count.poses > 1 ? "up to " : "") << gap;
             if (count.poses > 1)
                 text << " (at " << count.time << " s), in " << count.short_ones << " of " << count.poses << " poses";
-            if (count.worst->status == ReachStatus::out_of_reach) text << ": it is farther away than the chain is long";
+            if (count.worst->status == ReachStatus::out_of_reach) {
+                text << ": it is farther away than the chain is long";
+            } else if (goals[k].solver == Solver::pull) {
+                text << ": pull makes a single step in each pose; the other solvers finish";
+            }
             warn(file, text.str());
         }
     }

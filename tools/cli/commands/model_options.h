@@ -54,7 +54,10 @@ void add_reach(CLI::App& command, ReachRequest& request);
 struct ReachGoal {
     const Chain* chain = nullptr;
     ReachTarget target;
-    bool is_aim = false;  ///< the tip points at the target, at any distance
+    Solver solver = Solver::any;  ///< the option's or the chain's
+
+    /// Returns true if the tip is to point at the target, at any distance.
+    [[nodiscard]] bool is_aim() const { return solver == Solver::aim; }
 };
 
 /// Returns the requested chains and targets. CHAIN is a chain's name or number, see find_by_key, or the name of the

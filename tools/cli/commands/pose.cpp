@@ -146,7 +146,7 @@ private:
             const ReachResult result = results[k].value_or(ReachResult());
             reaches.push_back(
                 {chain.name.empty() ? std::to_string(&chain - model_.chains().data()) : std::string(chain.name),
-                 goals_[k].target, result.distance, result.angle, goals_[k].is_aim, has_reached(results[k])});
+                 goals_[k].target, result.distance, result.angle, goals_[k].is_aim(), has_reached(results[k])});
         }
         return reaches;
     }

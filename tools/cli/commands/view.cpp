@@ -30,7 +30,6 @@ std::vector<std::byte> open_any(const std::filesystem::path& file, const std::fi
     if (const auto checked = check_whole(character->bytes()); !checked)
         throw viewer::ViewerError(file.string() + ": " + describe_with_place(checked.error(), character->bytes()));
     print_warnings(file, report);
-    print_proposals(report);
     return {character->bytes().begin(), character->bytes().end()};
 }
 

@@ -223,8 +223,7 @@ private:
             return;
         }
         print_warnings(file.input, outcome.report);
-        for (const std::string& line : outcome.report.proposals())
-            std::cerr << "bendy: proposed: " << escaped(file.input.string()) << ": " << printable(line) << '\n';
+        if (!arguments_.quiet) print_proposals(file.input, outcome.report, arguments_.verbose);
         if (outcome.failure) {
             print_failure(file, *outcome.failure);
         } else if (!arguments_.quiet) {

@@ -154,7 +154,6 @@ CharacterFile open_character(const std::filesystem::path& file, const std::files
     for (const converter::SourceFile& source : report.sources()) outputs.reads(source.file);
     if (!character) fail(file_of(character.error(), file), describe(character.error()));
     print_warnings(file, report);
-    print_proposals(report);
     return *std::move(character);
 }
 

@@ -73,7 +73,7 @@ function checkOptions(caller: string, options: object, known: readonly string[])
 }
 
 /**
- * Converts glTF, X-files, Quake II models and bendy files to a bendy file, exactly unless `compact`.
+ * Converts another format (.gltf, .glb, .vrm, .vrma, .x, .md2, .bvh), or a bendy file, to a bendy file, exactly unless `compact`.
  *
  * A source of several files is a map from names to bytes, `{ 'a.gltf': ..., 'a.bin': ... }`; the names are the paths that the main
  * file uses. Rejects with `conversion` for what cannot be converted; its `path` is the place in the source.

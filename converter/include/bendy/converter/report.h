@@ -79,6 +79,15 @@ struct Warning {
     std::uint64_t count = 1;  ///< number of occurrences
 };
 
+/// A guess that was put into the result.
+struct Proposal {
+    enum class Kind : std::uint8_t { chain, limits, skin };
+
+    Kind kind = Kind::chain;
+    std::string name;  ///< of the chain, of the joint that has the limits, or of the mesh
+    std::string line;  ///< what was guessed, in one line: `chain LeftArm: ...`
+};
+
 /// How an interface spells option names: `--merge-clips`, `merge_clips`, `mergeClips`.
 enum class OptionStyle : std::uint8_t { program, python, javascript };
 
@@ -97,9 +106,8 @@ public:
     void warn(std::string message, std::string place = {}, std::uint64_t count = 1);
     [[nodiscard]] const std::vector<Warning>& warnings() const { return warnings_; }
 
-    /// Notes a guess that was put into the result: one line, as `chain LeftArm: ...`.
-    void propose(std::string line) { proposals_.push_back(std::move(line)); }
-    [[nodiscard]] const std::vector<std::string>& proposals() const { return proposals_; }
+    void propose(Proposal proposal) { proposals_.push_back(std::move(proposal)); }
+    [[nodiscard]] const std::vector<Proposal>& proposals() const { return proposals_; }
 
     /// Notes a suggestion for another conversion: one line, with the option to use.
     void suggest(std::string_view line) { suggestions_.push_back(with_option_names(line, style_)); }
@@ -119,7 +127,7 @@ public:
 private:
     OptionStyle style_ = OptionStyle::program;
     std::vector<Warning> warnings_;
-    std::vector<std::string> proposals_;
+    std::vector<Proposal> proposals_;
     std::vector<std::string> suggestions_;
     std::vector<SourceFile> sources_;
     std::set<std::filesystem::path> known_sources_;

@@ -196,7 +196,8 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
     if (!(result.height <= kLargest))
         return exactly("the character's height is too large for an error bound", farthest_vertex(exact));
     if (!(result.max_error <= kLargest)) return exactly("the error bound is too large a number of metres");
-    if (!find_limits(exact).can_be_measured) return exactly("poses too much for its size to be measured");
+    if (!find_limits(exact).can_be_measured)
+        return exactly("the clips have too many keys for the error to be measured");
 
     Scene scene = exact;
     const double geometry_share = geometry_share_of(exact);
@@ -293,9 +294,9 @@ std::vector<std::byte> build_compact(const Scene& exact, const CompactOptions& o
     for (const MeasuredError& error : errors) {
         if (error.metres > worst.metres) worst = error;
     }
-    if (!why_unreadable.empty()) return exactly("compact, it could not be read back, " + why_unreadable);
+    if (!why_unreadable.empty()) return exactly("the compact form could not be read back, " + why_unreadable);
     if (!(worst.metres <= result.max_error)) {
-        return exactly("cannot be kept inside the error that was asked for");
+        return exactly("the compact form exceeds the requested error");
     }
     if (options.meshes_without_levels != nullptr) {
         const std::size_t without = size_without_levels(std::move(scene), exact.clips, *options.meshes_without_levels,

@@ -214,8 +214,9 @@ Result<void, ImportError> auto_skin(Scene& scene, const std::string& skeleton, R
         mesh.palette = std::move(binding.palette);
         mesh.bones = std::move(binding.bones);
         mesh.weights.assign(mesh.bones.size(), 1.0f);
-        report.propose("skin of mesh " + name + ": " + counted(mesh.bones.size(), "vertex", "vertices") + " bound to " +
-                       counted(mesh.palette.joints.size(), "joint", "joints"));
+        report.propose({Proposal::Kind::skin, name,
+                        "skin of mesh " + name + ": " + counted(mesh.bones.size(), "vertex", "vertices") +
+                            " bound to " + counted(mesh.palette.joints.size(), "joint", "joints")});
     }
     return {};
 }

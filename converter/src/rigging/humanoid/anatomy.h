@@ -135,6 +135,7 @@ struct ProposedConstraint {
     JointAnatomy anatomy;
     ConstraintRecord constraint;  ///< flagged kProposed
     glm::dvec3 axis{0.0};         ///< of a bend, in model space at rest
+    double straight = 0.0;        ///< of a bend: degrees from the rest pose to the straight limb
     std::uint32_t clips = 0;      ///< that turn this joint, or its counterpart, by 5 degrees or more in total
     bool is_axis_fitted = false;  ///< the axis comes from the clips
     double axis_off = 0.0;        ///< degrees between the bend's axis and the anatomical one

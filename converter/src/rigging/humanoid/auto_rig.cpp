@@ -91,9 +91,8 @@ std::string name_of(const Scene& scene, std::uint32_t joint) {
     return name.empty() ? '#' + std::to_string(joint) : name;
 }
 
-/// A one-line description of a proposal for the report.
-std::string line_of(const Scene& scene, const Chain& chain, const std::optional<ProposedBend>& bend,
-                    const Stance& stance) {
+Proposal proposal_of(const Scene& scene, const Chain& chain, const std::optional<ProposedBend>& bend,
+                     const Stance& stance) {
     constexpr std::size_t kShown = 12;
     std::vector<bool> is_passive(scene.joints.size());
     for (const Chain::Weight& weight : chain.weights) is_passive[weight.joint] = weight.weight == 0.0f;
@@ -111,16 +110,19 @@ std::string line_of(const Scene& scene, const Chain& chain, const std::optional<
     }
     if (chain.record.target != kNone) line += " to " + name_of(scene, chain.record.target);
     line.append(", ").append(kValueNames<Solver>.at(chain.record.solver));
-    if (!bend) return line;
-    const bool is_arm = chain.name.find("Arm") != std::string::npos;
-    line += std::string(is_arm ? ", elbow" : ", knee") + " points " + way_of(bend->way, stance);
-    return bend->clips == 0 ? line : line + " as in " + clips_of(bend->clips);
+    if (bend) {
+        const bool is_arm = chain.name.find("Arm") != std::string::npos;
+        line += std::string(is_arm ? ", elbow" : ", knee") + " points " + way_of(bend->way, stance);
+        if (bend->clips != 0) line += " as in " + clips_of(bend->clips);
+    }
+    return {Proposal::Kind::chain, chain.name, std::move(line)};
 }
 
 /// \param whose  owner of the typical ranges, as `a human's`
-std::string line_of(const Scene& scene, const ProposedConstraint& proposed, const std::string& whose) {
+Proposal proposal_of(const Scene& scene, const ProposedConstraint& proposed, const std::string& whose) {
     const ConstraintRecord& constraint = proposed.constraint;
-    std::string line = part_of(proposed.anatomy) + ", " + name_of(scene, proposed.anatomy.joint) + ": ";
+    std::string name = name_of(scene, proposed.anatomy.joint);
+    std::string line = part_of(proposed.anatomy) + ", " + name + ": ";
     const auto model = static_cast<ConstraintModel>(constraint.model);
     if (model == ConstraintModel::hinge) {
         line += "hinge about " + vector_of(proposed.axis) + ", " + range_of(constraint, 0) + " degrees";
@@ -131,6 +133,8 @@ std::string line_of(const Scene& scene, const ProposedConstraint& proposed, cons
         line += "swing " + range_of(constraint, 1) + " and " + range_of(constraint, 2) + " degrees, twist " +
                 range_of(constraint, 0);
     }
+    if (const long straight = std::lround(proposed.straight); straight != 0)
+        line += ", straight at " + std::to_string(straight);
     if (proposed.is_axis_fitted) {
         line += ", axis fitted to " + clips_of(proposed.clips) + ", " + decimals(proposed.axis_off, 1) +
                 " degrees off " + whose;
@@ -139,7 +143,7 @@ std::string line_of(const Scene& scene, const ProposedConstraint& proposed, cons
         line += ", up to " + std::to_string(std::lround(std::ceil(proposed.growth))) + " degrees wider than " + whose +
                 " for " + clips_of(proposed.clips);
     }
-    return line;
+    return {Proposal::Kind::limits, std::move(name), std::move(line)};
 }
 
 constexpr std::array<const char*, kLimbs> kChainNames{"LeftArm", "RightArm", "LeftLeg", "RightLeg"};
@@ -253,7 +257,7 @@ private:
 };
 
 /// Adds limits for joints that have none.
-/// \param whose  see line_of
+/// \param whose  see proposal_of
 void add_limits(Scene& scene, const RestFrames& rest, const ClipRotations& clips,
                 const std::vector<JointAnatomy>& anatomy, const glm::dvec3& left, const std::string& whose,
                 const std::vector<bool>& claimed, Report& report) {
@@ -261,7 +265,7 @@ void add_limits(Scene& scene, const RestFrames& rest, const ClipRotations& clips
         Joint& joint = scene.joints[proposed.anatomy.joint];
         if (!joint.constraints.empty() || (!claimed.empty() && claimed[proposed.anatomy.joint])) continue;
         joint.constraints.push_back(proposed.constraint);
-        report.propose(line_of(scene, proposed, whose));
+        report.propose(proposal_of(scene, proposed, whose));
         if (proposed.beyond > 0.5) {
             report.warn("auto-rig: clips turn the joint by up to " + std::to_string(std::lround(proposed.beyond)) +
                             " degrees more than such a joint can turn, and leave its proposed limit",
@@ -273,7 +277,7 @@ void add_limits(Scene& scene, const RestFrames& rest, const ClipRotations& clips
 void rig_quadruped(Scene& scene, const RestFrames& rest, const ClipRotations& clips, const Quadruped& animal,
                    const std::vector<bool>& claimed, Report& report) {
     for (const std::size_t chain : add_new_chains(scene, make_quadruped_chains(scene, rest, animal, kProposed)))
-        report.propose(line_of(scene, scene.chains[chain], std::nullopt, animal.stance));
+        report.propose(proposal_of(scene, scene.chains[chain], std::nullopt, animal.stance));
     add_limits(scene, rest, clips, find_anatomy(rest, animal), animal.stance.left, "an animal's", claimed, report);
 }
 
@@ -299,7 +303,7 @@ void rig_human(Scene& scene, const RestFrames& rest, const ClipRotations& clips,
     const Bends bends(scene, rest, clips, found, stance);
     for (Chain& chain : chains) bends.turn_pole(chain);
     for (const std::size_t chain : add_new_chains(scene, std::move(chains)))
-        report.propose(line_of(scene, scene.chains[chain], bends.of(scene.chains[chain]), stance));
+        report.propose(proposal_of(scene, scene.chains[chain], bends.of(scene.chains[chain]), stance));
     if (!posture->is_upright)
         return report.warn("auto-rig: the spine does not go up from the legs as a human's, no limits proposed");
     add_limits(scene, rest, clips, find_anatomy(scene, rest, found, stance), stance.left, "a human's", claimed, report);

@@ -367,6 +367,7 @@ private:
             constraint.is_axis_fitted = fit.is_fitted;
             constraint.axis_off = degrees_of(0.5 * glm::length(constraint.axis - constraint.anatomy.axes[2]));
             const double rest_bend = glm::dot(member.rest, fit.axis);
+            constraint.straight = -rest_bend;
             Range range = shifted(bend, -rest_bend);
             const glm::dvec3 rest(0.0, 0.0, rest_bend);
             const Range typical = ranges_from_rest(member.typical, rest).z;

@@ -31,7 +31,7 @@ public:
     /// The next character; `is_plain` is true if a backslash escapes it.
     char32_t next(bool& is_plain) {
         is_plain = *at_ == '\\';
-        if (is_plain && ++at_ == end_) fail(place_, "it ends in a backslash that stands before nothing");
+        if (is_plain && ++at_ == end_) fail(place_, "it ends in a backslash that escapes nothing");
         return next_character(at_, end_);
     }
 

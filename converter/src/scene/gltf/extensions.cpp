@@ -156,6 +156,12 @@ bool is_interpreted_material_extension(std::string_view name) {
     return name == "KHR_materials_unlit";
 }
 
+bool is_drawn_material_extension(std::string_view name, const Json& extension) {
+    if (name == "KHR_materials_specular")
+        return find(extension, "specularTexture") == nullptr && find(extension, "specularColorTexture") == nullptr;
+    return name == "KHR_materials_emissive_strength" || name == "KHR_materials_ior";
+}
+
 void report_extensions(const Json& root, Report& report) {
     Finder finder;
     finder.search(root, {});

@@ -25,6 +25,9 @@ bool is_known_extension(std::string_view name);
 /// Whether a material extension maps to fields of Material; others are kept there as JSON.
 bool is_interpreted_material_extension(std::string_view name);
 
+/// Whether tools/viewer draws everything that a material extension says. It is kept as JSON all the same.
+bool is_drawn_material_extension(std::string_view name, const Json& extension);
+
 /// Warns of all extensions in the file that the Scene cannot hold: by name, each with its count.
 void report_extensions(const Json& root, Report& report);
 

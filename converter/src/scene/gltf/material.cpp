@@ -129,7 +129,8 @@ std::string keep_extensions(const Document& document, const Json& material, cons
     for (auto extension = extensions->begin(); extension != extensions->end(); ++extension) {
         if (is_interpreted_material_extension(extension.key())) continue;
         kept.emplace(extension.key(), extension.value());
-        if (extension.key() == approximated) continue;
+        if (extension.key() == approximated || is_drawn_material_extension(extension.key(), extension.value()))
+            continue;
         document.report.warn("kept as JSON, not interpreted: " + key(extension.key()), place + ".extensions");
     }
     return kept.empty() ? std::string() : kept.dump();

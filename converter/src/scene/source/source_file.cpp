@@ -50,7 +50,8 @@ std::vector<std::byte> decode_base64(std::string_view text, const std::string& p
         const std::uint8_t value = kTable[static_cast<unsigned char>(text[i])];
         if (value == 255) {
             if (text[i] == ' ' || text[i] == '\n' || text[i] == '\r' || text[i] == '\t') continue;
-            fail(place, "data URI: character " + std::to_string(i) + " of the base64 text is none of its alphabet");
+            fail(place,
+                 "data URI: character " + std::to_string(i) + " of the base64 text is not in the base64 alphabet");
         }
         bits = (bits << 6 | value) & 0xffffffu;
         count += 6;
