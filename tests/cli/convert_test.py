@@ -171,6 +171,10 @@ class Convert(Case):
         self.assertTrue(all(line.startswith("bendy: proposed: legs.gltf: ") for line in lines), lines)
         self.assertNotIn(b"proposed", result.stdout)
         self.assertEqual(self.bendy("convert", "legs.gltf", "--auto-rig", "--quiet").stderr, b"")
+        for option, count in (("--force", 1), ("--verbose", 8), ("--quiet", 0)):
+            lines = self.bendy("convert", "legs.gltf", "--auto-rig", "-o", f"out{option}/", option).stderr.splitlines()
+            self.assertEqual(len(lines), count, lines)
+            self.assertTrue(all(line.startswith(b"bendy: proposed: legs.gltf: ") for line in lines), lines)
         self.done("validate", "legs.bendy")
         self.assertEqual(self.bendy("convert", "legs.gltf").stderr, b"")
 
