@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <vector>
 
-// What the programs with OpenGL share: a camera, and a picture of the window.
+// Shared by the OpenGL programs: a camera, and a picture of the window.
 
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;

@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).parent
-# Of the processor and the operating system: every compiler for them has these.
+# Headers of processors and operating systems, which every compiler for them has.
 SYSTEM = {"arm_acle.h", "arm_neon.h", "fcntl.h", "immintrin.h", "intrin.h", "nmmintrin.h", "sys/auxv.h", "sys/mman.h", "sys/stat.h", "unistd.h",
           "wasm_simd128.h", "windows.h", "xmmintrin.h"}
 

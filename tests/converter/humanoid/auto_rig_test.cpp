@@ -41,7 +41,7 @@ struct Rigged {
         }
         return false;
     }
-    /// What is proposed for a joint or chain of that name.
+    /// The proposal for the joint or chain of that name.
     [[nodiscard]] std::string line_of(std::string_view name) const {
         for (const Proposal& proposal : report.proposals()) {
             if (proposal.name == name) return proposal.line;
