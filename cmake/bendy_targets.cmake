@@ -160,15 +160,22 @@ function(bendy_fast_on_the_web)
   endif()
 endfunction()
 
-# bendy_optimise(TARGET LEVEL): -O<LEVEL> in place of the -O3 of optimised builds, for code that compiles faster so and runs
-# as fast as anybody can tell.
+# bendy_optimise(TARGET LEVEL [SOURCE...]): -O<LEVEL> in place of the -O3 of optimised builds, for code that compiles faster so and
+# runs as fast as anybody can tell; for the batches of these sources, or for all of the target's.
 function(bendy_optimise target level)
   if(EMSCRIPTEN AND level EQUAL 1)
     set(level z)  # what need not be fast need not be loaded either
   endif()
-  if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=" AND level EQUAL 1)
-    target_compile_options(${target} PRIVATE -O0)  # templates with sanitizers compile slowest of all
-  elseif(NOT MSVC)
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O${level}>)
+  if(MSVC)
+    return()
+  elseif(CMAKE_CXX_FLAGS MATCHES "-fsanitize=" AND level EQUAL 1)
+    set(option -O0)  # templates with sanitizers compile slowest of all
+  else()
+    set(option $<$<CONFIG:Release>:-O${level}>)
+  endif()
+  if(ARGN)
+    set_source_files_properties(${ARGN} PROPERTIES BENDY_BATCH_OPTIONS ${option})
+  else()
+    target_compile_options(${target} PRIVATE ${option})
   endif()
 endfunction()

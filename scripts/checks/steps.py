@@ -56,7 +56,7 @@ def release(needed):
     return configure("release", "-DBENDY_TESTS=ON", "-DBENDY_WARNINGS_AS_ERRORS=ON", f"-DBENDY_TESTS_NEEDED={needed}")
 
 
-UNITS = ("format", "runtime", "capi", "threads", "mutation", "conformance", "compat", "edit", "motion", "converter", "text_form", "memory")
+UNITS = ("format", "runtime", "capi", "threads", "mutation", "conformance", "compat", "json", "edit", "motion", "converter", "text_form", "memory")
 
 STEPS = (
     # What a newcomer runs: a compiler, libraries and Python are enough.

@@ -13,7 +13,7 @@
 namespace bendy::tools {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 Json start(const std::filesystem::path& input, const std::filesystem::path& output, const char* status) {
     return {{"status", status}, {"input", input.string()}, {"output", output.string()}};
@@ -117,9 +117,9 @@ unsigned jobs_of(const ConvertArguments& arguments) {
 }
 
 std::string recipe_of(const ConvertArguments& arguments) {
-    nlohmann::json recipe{{"bendy", BENDY_VERSION}};
+    Json recipe{{"bendy", BENDY_VERSION}};
     visit_options(arguments, [&](const ConvertOption& option, const auto& value) {
-        nlohmann::json& place = recipe[std::string(option.name)];
+        Json& place = recipe[std::string(option.name)];
         if constexpr (std::is_same_v<std::decay_t<decltype(value)>, option::path>) {
             place = value.empty() ? std::string() : std::filesystem::absolute(value).string();
         } else {

@@ -5,8 +5,7 @@
 #include <bendy/converter/convert.h>
 #include <bendy/converter/report.h>
 #include <bendy/format/byte_reader.h>
-
-#include <nlohmann/json.hpp>
+#include <bendy/json/json.h>
 
 #include <filesystem>
 #include <string>
@@ -38,13 +37,12 @@ unsigned jobs_of(const ConvertArguments& arguments);
 std::string recipe_of(const ConvertArguments& arguments);
 
 /// Reports a successful conversion. \param bytes  of the output
-nlohmann::ordered_json converted_report(const std::filesystem::path& input, const std::filesystem::path& output,
-                                        const converter::Report& report, Bytes bytes);
+OrderedJson converted_report(const std::filesystem::path& input, const std::filesystem::path& output,
+                             const converter::Report& report, Bytes bytes);
 /// Reports an output that is up to date.
-nlohmann::ordered_json up_to_date_report(const std::filesystem::path& input, const std::filesystem::path& output);
+OrderedJson up_to_date_report(const std::filesystem::path& input, const std::filesystem::path& output);
 /// Reports a failed conversion. \param file  the file that caused it
-nlohmann::ordered_json failed_report(const std::filesystem::path& input, const std::filesystem::path& output,
-                                     const converter::Report& report, const std::filesystem::path& file,
-                                     const std::string& what);
+OrderedJson failed_report(const std::filesystem::path& input, const std::filesystem::path& output,
+                          const converter::Report& report, const std::filesystem::path& file, const std::string& what);
 
 }  // namespace bendy::tools

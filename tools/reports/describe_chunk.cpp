@@ -18,7 +18,7 @@
 namespace bendy::tools {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 /// Returns a field of plain numbers or of text; null for a field that is a nested record.
 Json field_json(const RecordField& field, Bytes payload, std::uint64_t base) {
@@ -99,7 +99,7 @@ std::string field_text(const RecordLayout& layout, const RecordField& field, Byt
         return text + ' ' + std::to_string(number);
     }
     const Json value = field_json(field, payload, 0);
-    if (value.is_string()) return text + " \"" + brief(value.get_ref<const std::string&>()) + '"';
+    if (value.is_string()) return text + " \"" + brief(value.text()) + '"';
     const auto add = [&](const Json& one) {
         text += ' ';
         text += one.is_number_float() ? brief(one.get<float>()) : grouped(one.get<std::uint64_t>());

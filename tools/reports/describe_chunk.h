@@ -4,8 +4,7 @@
 
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/error.h>
-
-#include <nlohmann/json.hpp>
+#include <bendy/json/json.h>
 
 #include <cstdint>
 #include <map>
@@ -23,7 +22,7 @@ std::string encoding_text(const ChunkTree& tree, std::uint32_t number);
 
 /// Returns the fields of a chunk's record by their names in records.def; for text chunks {"text": ...}. Empty for
 /// chunks without a record.
-nlohmann::ordered_json chunk_fields(const ChunkTree& tree, std::uint32_t number);
+OrderedJson chunk_fields(const ChunkTree& tree, std::uint32_t number);
 
 /// The chunks that have faults, for the tree.
 class FaultyChunks {
@@ -44,7 +43,7 @@ std::uint32_t chunk_at(const ChunkTree& tree, std::uint64_t offset);
 
 /// Returns the chunks from `root` on as a JSON array in file order. An entry's "parent" is the number of an earlier
 /// entry, so that a skeleton of ten thousand levels does not nest the JSON.
-nlohmann::ordered_json chunks_as_json(const ChunkTree& tree, std::uint32_t root, const FaultyChunks& faulty);
+OrderedJson chunks_as_json(const ChunkTree& tree, std::uint32_t root, const FaultyChunks& faulty);
 
 /// Returns the meaning of an id ("joint", "key times", ...), or "unknown".
 std::string_view chunk_meaning(FourCC id);

@@ -12,7 +12,7 @@
 namespace bendy::tools {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 using converter::CharacterComparison;
 using converter::CharacterDifference;
 using diff::Difference;

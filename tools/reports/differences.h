@@ -8,8 +8,7 @@
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/result.h>
-
-#include <nlohmann/json.hpp>
+#include <bendy/json/json.h>
 
 #include <cstdint>
 #include <functional>
@@ -22,9 +21,8 @@ namespace bendy::tools {
 std::string name_around(const ChunkTree& tree, std::uint32_t number);
 
 /// Returns how two files differ, chunk by chunk. \param a_name, b_name  the names of the files in the report
-nlohmann::ordered_json differences_as_json(const std::string& a_name, const std::string& b_name,
-                                           const diff::ReadFile& a, const diff::ReadFile& b,
-                                           const diff::Differences& differences);
+OrderedJson differences_as_json(const std::string& a_name, const std::string& b_name, const diff::ReadFile& a,
+                                const diff::ReadFile& b, const diff::Differences& differences);
 
 /// The parts of a character that are compared.
 struct ComparedCharacter {
@@ -42,7 +40,7 @@ converter::CharacterComparison compare_characters(const ComparedCharacter& a, co
                                                   const converter::ErrorBound& tolerance,
                                                   const std::function<void(double)>& progress = {});
 
-nlohmann::ordered_json comparison_as_json(const std::string& a_name, const std::string& b_name,
-                                          const converter::CharacterComparison& comparison);
+OrderedJson comparison_as_json(const std::string& a_name, const std::string& b_name,
+                               const converter::CharacterComparison& comparison);
 
 }  // namespace bendy::tools

@@ -21,7 +21,7 @@
 namespace bendy::tools {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 constexpr std::uint32_t kMostChunks = 100'000;
 constexpr std::size_t kMostWarnings = 1'000;
@@ -408,7 +408,7 @@ Json page_data(const InspectedFile& file) {
 
 /// Returns JSON that is safe in a script element whatever its strings hold: ASCII, without < > &.
 std::string as_script_data(const Json& data) {
-    const std::string json = data.dump(-1, ' ', true, Json::error_handler_t::replace);
+    const std::string json = data.dump(-1, true, Json::InvalidText::replaced);
     std::string text;
     text.reserve(json.size());
     for (const char c : json) {

@@ -1,8 +1,7 @@
 #pragma once
 
 #include <bendy/format/charconv.h>
-
-#include <nlohmann/json.hpp>
+#include <bendy/json/json.h>
 
 #include <array>
 #include <cmath>
@@ -20,7 +19,7 @@ std::string without_controls(std::string json);
 /// \param indentation  -1: all on one line
 template <class Json>
 std::string json_text(const Json& json, int indentation = -1) {
-    return without_controls(json.dump(indentation, ' ', false, Json::error_handler_t::replace));
+    return without_controls(json.dump(indentation, false, Json::InvalidText::replaced));
 }
 
 /// Prints to standard output, with a line break.
@@ -30,7 +29,7 @@ void print_report(const Json& report, int indentation = -1) {
 }
 
 /// Rounds a number to six significant digits, to keep the JSON short; null if it is not finite.
-inline nlohmann::ordered_json short_number(float number) {
+inline OrderedJson short_number(float number) {
     constexpr int kDigits = 6;
     if (!std::isfinite(number)) return nullptr;
     std::array<char, 32> digits{};
@@ -42,8 +41,8 @@ inline nlohmann::ordered_json short_number(float number) {
 }
 
 template <std::size_t N>
-nlohmann::ordered_json short_numbers(const std::array<float, N>& numbers) {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+OrderedJson short_numbers(const std::array<float, N>& numbers) {
+    OrderedJson list = OrderedJson::array();
     for (const float number : numbers) list.push_back(short_number(number));
     return list;
 }

@@ -14,7 +14,7 @@
 namespace bendy::tools {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 constexpr std::uint64_t kMostNumbers = 400'000;  // for all tracks together
 constexpr std::size_t kMostPoints = 240;         // per track

@@ -1,8 +1,7 @@
 #pragma once
 
 #include <bendy/format/document.h>
-
-#include <nlohmann/json.hpp>
+#include <bendy/json/json.h>
 
 #include <cstdint>
 #include <map>
@@ -20,21 +19,20 @@ public:
 
     /// Returns the clips of an object: name, length, tracks with their values at some times, and the number of tracks
     /// left out.
-    nlohmann::ordered_json clips(const ObjectView& object);
+    OrderedJson clips(const ObjectView& object);
 
     /// Returns the lists of times that the tracks refer to by number.
-    [[nodiscard]] nlohmann::ordered_json times() const;
+    [[nodiscard]] OrderedJson times() const;
     [[nodiscard]] std::size_t points_per_track() const { return points_; }
     /// The number of tracks drawn with fewer points than they have keys.
     [[nodiscard]] std::size_t thinned() const { return thinned_; }
     [[nodiscard]] std::size_t left_out() const { return left_out_; }
 
 private:
-    nlohmann::ordered_json sampled(const TrackView& track, const ClipView& clip, const ObjectView& object);
+    OrderedJson sampled(const TrackView& track, const ClipView& clip, const ObjectView& object);
     /// Adds the tracks of a PACK, at some of its frames.
-    void add_packed(const PackedView& packed, const ClipView& clip, const ObjectView& object,
-                    nlohmann::ordered_json& tracks);
-    static nlohmann::ordered_json packed_track(const PackedGroup& group, std::uint32_t track, std::uint32_t frames);
+    void add_packed(const PackedView& packed, const ClipView& clip, const ObjectView& object, OrderedJson& tracks);
+    static OrderedJson packed_track(const PackedGroup& group, std::uint32_t track, std::uint32_t frames);
     std::size_t number_of(std::vector<float> times);
 
     std::map<std::vector<float>, std::size_t> numbers_;  // numbers of the lists of times

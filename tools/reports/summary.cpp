@@ -20,7 +20,7 @@
 namespace bendy::tools {
 namespace {
 
-using nlohmann::ordered_json;
+using Json = OrderedJson;
 
 constexpr std::size_t kIndentation = 17;  // of the text after a label
 
@@ -245,27 +245,27 @@ void add_contents(const Summary& summary, Lines& lines) {
 }
 
 template <class List>
-ordered_json json_list(const List& list, void (*fill)(ordered_json&, const typename List::value_type&)) {
-    ordered_json all = ordered_json::array();
+Json json_list(const List& list, void (*fill)(Json&, const typename List::value_type&)) {
+    Json all = Json::array();
     for (std::size_t k = 0; k < list.size(); ++k) {
-        ordered_json one{{"number", k}, {"name", list[k].name}};
+        Json one{{"number", k}, {"name", list[k].name}};
         fill(one, list[k]);
         all.push_back(std::move(one));
     }
     return all;
 }
 
-void fill_joint(ordered_json& json, const Summary::JointLine& joint) {
-    json["parent"] = joint.parent == kNone ? ordered_json(nullptr) : ordered_json(joint.parent);
+void fill_joint(Json& json, const Summary::JointLine& joint) {
+    json["parent"] = joint.parent == kNone ? Json(nullptr) : Json(joint.parent);
 }
 
-void fill_chain(ordered_json& json, const Summary::ChainLine& chain) {
+void fill_chain(Json& json, const Summary::ChainLine& chain) {
     json["start"] = chain.start;
     json["effector"] = chain.effector;
     json["links"] = chain.links;
 }
 
-void fill_mesh(ordered_json& json, const Summary::MeshLine& mesh) {
+void fill_mesh(Json& json, const Summary::MeshLine& mesh) {
     json["vertices"] = mesh.vertices;
     json["triangles"] = mesh.triangles;
     if (mesh.lines != 0) json["lines"] = mesh.lines;
@@ -274,32 +274,32 @@ void fill_mesh(ordered_json& json, const Summary::MeshLine& mesh) {
     json["morphTargets"] = mesh.morph_targets;
 }
 
-void fill_clip(ordered_json& json, const Summary::ClipLine& clip) {
+void fill_clip(Json& json, const Summary::ClipLine& clip) {
     json["start"] = short_number(clip.start);
     json["end"] = short_number(clip.end);
     json["seconds"] = short_number(clip.end - clip.start);
     json["repeats"] = clip.repeats;
 }
 
-void fill_texture(ordered_json& json, const Summary::TextureLine& texture) {
-    json["images"] = ordered_json::array();
+void fill_texture(Json& json, const Summary::TextureLine& texture) {
+    json["images"] = Json::array();
     for (const Summary::ImageLine& image : texture.images) {
-        ordered_json one{{"type", image.type}, {"bytes", image.bytes}};
+        Json one{{"type", image.type}, {"bytes", image.bytes}};
         if (!image.link.empty()) one["link"] = image.link;
         if (image.same != kNone) one["sameAs"] = image.same;
         json["images"].push_back(std::move(one));
     }
 }
 
-ordered_json levels_as_json(const Summary& summary) {
-    ordered_json levels = ordered_json::array();
+Json levels_as_json(const Summary& summary) {
+    Json levels = Json::array();
     for (const Summary::Level& level : summary.levels) {
         levels.push_back({{"share", short_number(level.share)},
                           {"triangles", level.triangles},
                           {"vertices", level.vertices},
-                          {"error", level.error > 0.0f ? short_number(level.error) : ordered_json(nullptr)}});
+                          {"error", level.error > 0.0f ? short_number(level.error) : Json(nullptr)}});
     }
-    if (!levels.empty()) levels.front()["error"] = 0.0;
+    if (!levels.empty()) levels[0]["error"] = 0.0;
     return levels;
 }
 
@@ -386,8 +386,8 @@ std::string summary_as_text(const Summary& summary, const std::string& file, std
     return head + '\n' + lines.take();
 }
 
-ordered_json summary_as_json(const Summary& summary) {
-    ordered_json json{{"name", summary.name}, {"objects", summary.objects}};
+Json summary_as_json(const Summary& summary) {
+    Json json{{"name", summary.name}, {"objects", summary.objects}};
     json["joints"] = json_list(summary.joints, fill_joint);
     json["constraints"] = summary.constraints;
     json["chains"] = json_list(summary.chains, fill_chain);
@@ -395,14 +395,14 @@ ordered_json summary_as_json(const Summary& summary) {
     json["levels"] = levels_as_json(summary);
     json["clips"] = json_list(summary.clips, fill_clip);
     json["materials"] = json_list(
-        summary.materials, +[](ordered_json&, const Summary::Named&) {});
+        summary.materials, +[](Json&, const Summary::Named&) {});
     json["textures"] = json_list(summary.textures, fill_texture);
     json["bounds"] = nullptr;
     if (!summary.bounds.is_empty()) {
         const auto corner = [](const glm::vec3& at) { return short_numbers(std::array{at.x, at.y, at.z}); };
         json["bounds"] = {{"min", corner(summary.bounds.minimum)}, {"max", corner(summary.bounds.maximum)}};
     }
-    json["bytesByKind"] = ordered_json::object();
+    json["bytesByKind"] = Json::object();
     for (const auto& [kind, bytes] : summary.bytes_by_kind) json["bytesByKind"][kind] = bytes;
     return json;
 }

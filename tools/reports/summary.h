@@ -3,10 +3,9 @@
 #include <bendy/format/byte_reader.h>
 #include <bendy/format/chunk_reader.h>
 #include <bendy/format/result.h>
+#include <bendy/json/json.h>
 #include <bendy/runtime/bounds.h>
 #include <bendy/runtime/model.h>
-
-#include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -93,6 +92,6 @@ std::string summary_as_text(const Summary& summary, const std::string& file, std
                             bool with_bytes_by_kind = true);
 
 /// The same with all names, for programs: docs/cli.md describes it.
-nlohmann::ordered_json summary_as_json(const Summary& summary);
+OrderedJson summary_as_json(const Summary& summary);
 
 }  // namespace bendy::tools

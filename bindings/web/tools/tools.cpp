@@ -48,7 +48,7 @@ EM_JS(void, bendy_tell_progress, (double share), { Module["progress"](share); })
 namespace bendy::web {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 using Path = std::filesystem::path;
 
 /// The content of a BendyError.
@@ -276,7 +276,7 @@ Json run_strip(const Json& request, Made& made) {
 Json run_rename(const Json& request, Made& made) {
     edit::Rename rename;
     rename.kind = parsed(edit::parse_named(text_of(request, "kind")));
-    for (const Json& pair : request.at("names")) rename.names.emplace_back(pair.at(0), pair.at(1));
+    for (const Json& pair : request.at("names")) rename.names.emplace_back(pair.at(0).text(), pair.at(1).text());
     rename.all_must_match = request.value("allMustMatch", true);
     return edited(request, made, [&](Bytes bytes, edit::Log& log) { return edit::rename(bytes, rename, log); });
 }
@@ -319,13 +319,13 @@ Json run_extract(const Json& request, Made& made) {
 }
 
 Json run_change_clips(const Json& request, Made& made) {
-    const std::vector<std::string> texts = request.at("texts");
+    const auto texts = request.at("texts").get<std::vector<std::string>>();
     const auto what = parsed(edit::parse_clip_change(text_of(request, "work"), texts));
     return edited(request, made, [&](Bytes bytes, edit::Log& log) { return edit::change_clips(bytes, what, log); });
 }
 
 Json run_limit_influences(const Json& request, Made& made) {
-    const std::uint32_t most = request.at("most");
+    const auto most = request.at("most").get<std::uint32_t>();
     return edited(request, made, [&](Bytes bytes, edit::Log& log) { return edit::limit_influences(bytes, most, log); });
 }
 
@@ -453,12 +453,14 @@ Json error_answer(const Failure& failure) {
 Json answer_or_error() {
     try {
         const MappedFile request = map("/request.json");
-        return answer_to(Json::parse(as_text(request.bytes())));
+        const auto json = Json::parse(as_text(request.bytes()));
+        if (!json) throw JsonError("the request is no JSON");
+        return answer_to(*json);
     } catch (const Failure& failure) {
         return error_answer(failure);
     } catch (const diff::TooMuchToCompare&) {
         return error_answer({"unsupported", "UNSUPPORTED", "tracks share more keys than can be compared"});
-    } catch (const nlohmann::json::exception& problem) {
+    } catch (const JsonError& problem) {
         return error_answer({"bad_argument", "BAD_ARGUMENT", problem.what()});
     }
 }

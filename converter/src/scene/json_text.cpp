@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 
 namespace bendy::converter {
@@ -93,15 +94,12 @@ Value parse_json_text(std::string_view text, Report& report, std::size_t most_le
         report.warn("half a surrogate pair in a string was replaced by U+FFFD", {}, unpaired);
         text = repaired;
     }
-    try {
-        return Value::parse(text.begin(), text.end());
-    } catch (const typename Value::parse_error& error) {
-        fail_at_byte(text, error.byte, error.what());
-    } catch (const typename Value::out_of_range& error) {
-        const std::string_view reason =
-            error.what();  // "[json.exception.out_of_range.406] number overflow parsing '1e999'"
-        fail({}, "invalid JSON: " + std::string(reason.substr(std::min(reason.find(' ') + 1, reason.size()), 160)));
-    }
+    JsonFault fault;
+    std::optional<Value> value = Value::parse(text, &fault);
+    if (value) return *std::move(value);
+    if (!fault.is_out_of_range) fail_at_byte(text, fault.byte, fault.reason);
+    // "[json.exception.out_of_range.406] number overflow parsing '1e999'"
+    fail({}, "invalid JSON: " + fault.reason.substr(std::min(fault.reason.find(' ') + 1, fault.reason.size()), 160));
 }
 
 template Json parse_json_text<Json>(std::string_view text, Report& report, std::size_t most_levels);

@@ -1,10 +1,7 @@
 #pragma once
 
-#include "scene/members_in_order.h"
-
 #include <bendy/converter/report.h>
-
-#include <nlohmann/json.hpp>
+#include <bendy/json/json.h>
 
 #include <cstddef>
 #include <span>
@@ -12,10 +9,10 @@
 
 namespace bendy::converter {
 
-using Json = nlohmann::json;
-using OrderedJson = nlohmann::basic_json<MembersInOrder>;
+using bendy::Json;
+using bendy::OrderedJson;
 
-/// Limit on nested arrays and objects: copying and printing JSON is recursive.
+/// Limit on nested arrays and objects of a source.
 inline constexpr std::size_t kMostJsonLevels = 128;
 
 /// Parses JSON text; Value is Json or OrderedJson. A byte order mark is skipped; an unpaired surrogate is replaced by

@@ -2,16 +2,13 @@
 
 #include <bendy/extensions/pointed_lists.h>
 #include <bendy/format/charconv.h>
-
-#include <nlohmann/json.hpp>
+#include <bendy/json/json.h>
 
 #include <algorithm>
 #include <system_error>
 
 namespace bendy::extensions {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr std::string_view kRoot = "/extensions/";
 
@@ -67,7 +64,7 @@ struct PointedLists::Parsed {
 
 PointedLists::PointedLists(std::string_view json) : parsed_(std::make_unique<Parsed>()) {
     if (is_too_deep(json)) return;
-    Json parsed = Json::parse(json, nullptr, false);
+    Json parsed = Json::parse(json).value_or(Json());
     if (parsed.is_object()) parsed_->json = std::move(parsed);
 }
 
@@ -93,7 +90,7 @@ const NamedList& PointedLists::list(std::string_view pointer) {
         for (const Json& element : *list) {
             const auto name = element.is_object() ? element.find("name") : element.end();
             const bool has_name = element.is_object() && name != element.end() && name->is_string();
-            made.names.push_back(has_name ? name->get<std::string>() : std::string());
+            made.names.push_back(has_name ? name->text() : std::string());
         }
         return true;
     });

@@ -2,12 +2,11 @@
 
 #include <bendy/extensions/rename_materials.h>
 
-#include <nlohmann/json.hpp>
+#include <bendy/json/json.h>
 
 namespace bendy::extensions {
 namespace {
 
-using Json = nlohmann::json;
 using Names = std::map<std::string, std::string, std::less<>>;
 
 /// Calls visit(element) for the elements of a list that an object may have.
@@ -25,7 +24,7 @@ public:
     void rename(Json& object, const char* member) {
         const auto found = object.is_object() ? object.find(member) : object.end();
         if (!object.is_object() || found == object.end() || !found->is_string()) return;
-        const auto name = names_.find(found->get_ref<const std::string&>());
+        const auto name = names_.find(found->text());
         if (name == names_.end()) return;
         *found = name->second;
         has_changed_ = true;
@@ -42,7 +41,7 @@ private:
 
 std::optional<std::string> rename_materials(std::string_view json, const Names& names) {
     if (names.empty() || is_too_deep(json)) return std::nullopt;
-    Json all = Json::parse(json, nullptr, false);
+    Json all = Json::parse(json).value_or(Json());
     const auto vrm = all.is_object() ? all.find("VRM") : all.end();
     if (!all.is_object() || vrm == all.end() || !vrm->is_object()) return std::nullopt;
     Renamer renamer(names);

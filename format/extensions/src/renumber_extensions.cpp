@@ -1,8 +1,7 @@
 #include "too_deep.h"
 
 #include <bendy/extensions/renumber_extensions.h>
-
-#include <nlohmann/json.hpp>
+#include <bendy/json/json.h>
 
 #include <algorithm>
 #include <array>
@@ -12,8 +11,6 @@
 
 namespace bendy::extensions {
 namespace {
-
-using Json = nlohmann::json;  // members by name: a list of members would need a linear search for each
 
 /// How much to remove together with a number.
 enum class Gone : std::uint8_t { entry, entry_or_list, member, all, minus_one };
@@ -44,7 +41,7 @@ constexpr std::array<std::string_view, 2> kMaterials{"KHR_materials_", "VRMC_mat
 /// Returns a whole number that can be the index of a thing.
 std::optional<std::uint32_t> number_in(const Json& value) {
     if (!value.is_number()) return std::nullopt;
-    const double number = value.get<double>();
+    const auto number = value.get<double>();
     if (!(number >= 0.0 && number < 4294967295.0)) return std::nullopt;
     const auto whole = static_cast<std::uint32_t>(number);
     return static_cast<double>(whole) == number ? std::optional(whole) : std::nullopt;
@@ -144,7 +141,7 @@ private:
             if (fate == Fate::all_goes) return fate;
             if (fate != Fate::stays) gone.push_back(member.key());
         }
-        for (const std::string& name : gone) object.erase(name);
+        object.erase_members(gone);
         return Fate::stays;
     }
 
@@ -205,7 +202,7 @@ private:
             if (member->is_structured()) renumber_textures(*member);
             place_.resize(length);
         }
-        for (const std::string& name : gone) value.erase(name);
+        if (!gone.empty()) value.erase_members(gone);
         for (std::size_t i = 0; value.is_array() && i < value.size(); ++i) {
             if (value[i].is_structured()) renumber_textures(value[i]);
         }
@@ -254,7 +251,7 @@ bool is_too_deep(std::string_view text) {
 
 std::optional<Renumbered> renumber_extensions(std::string_view json, Host host, const NewNumber& now) {
     if (is_too_deep(json)) return std::nullopt;
-    Json all = Json::parse(json, nullptr, false);
+    Json all = Json::parse(json).value_or(Json());
     if (!all.is_object()) return std::nullopt;
     Renumbered renumbered;
     Renumberer renumberer(host, now, renumbered);
@@ -264,7 +261,7 @@ std::optional<Renumbered> renumber_extensions(std::string_view json, Host host, 
         if (host != Host::material && !is_known(extension.key()) && has_whole_number(*extension))
             renumbered.unknown.push_back(extension.key());
     }
-    for (const std::string& name : gone) all.erase(name);
+    all.erase_members(gone);
     if (!renumberer.has_changed()) {
         renumbered.json = json;
     } else if (!all.empty()) {

@@ -12,6 +12,7 @@ namespace bendy::converter::meshopt_test {
 namespace {
 
 using namespace test;
+using test::Json;  // not that of the converter
 using namespace gltf;
 
 template <class T>

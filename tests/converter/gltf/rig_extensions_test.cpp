@@ -6,6 +6,7 @@ namespace bendy::converter::rig_extensions_test {
 namespace {
 
 using namespace test;
+using test::Json;  // not that of the converter
 
 /// Three nodes in a row, and one beside them that the scene does not have.
 Gltf make_arm() {

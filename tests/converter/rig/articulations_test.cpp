@@ -14,6 +14,7 @@ namespace bendy::converter::articulations_test {
 namespace {
 
 using namespace test;
+using test::Json;  // not that of the converter
 
 Json stage(const char* type, double low, double high, double initial = 0) {
     return {{"name", "s"}, {"type", type}, {"minimumValue", low}, {"maximumValue", high}, {"initialValue", initial}};

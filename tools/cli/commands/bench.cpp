@@ -147,9 +147,9 @@ void print_page(const BenchArguments& arguments, const Model& model, const Clip*
 
 void print_json(const BenchArguments& arguments, const Model& model, const Clip* clip,
                 const std::vector<Kernel>& kernels, const std::vector<Row>& rows) {
-    nlohmann::json stages = nlohmann::json::array();
+    Json stages = Json::array();
     for (const Row& row : rows) {
-        nlohmann::json times = nlohmann::json::object();
+        Json times = Json::object();
         for (std::size_t k = 0; k < kernels.size(); ++k) {
             times[std::string(kernel_name(kernels[k]))] = {{"medianNs", row.timings[k].median},
                                                            {"leastNs", row.timings[k].least}};
@@ -157,13 +157,13 @@ void print_json(const BenchArguments& arguments, const Model& model, const Clip*
         stages.push_back(
             {{"name", row.stage->name}, {"item", row.stage->item}, {"items", row.stage->items}, {"perItem", times}});
     }
-    const nlohmann::json report = {{"file", arguments.file.string()},
-                                   {"joints", model.joints().size()},
-                                   {"vertices", model.vertex_count()},
-                                   {"targets", model.morph_target_count()},
-                                   {"clip", clip == nullptr ? nlohmann::json() : nlohmann::json(clip->name)},
-                                   {"rounds", arguments.rounds},
-                                   {"stages", stages}};
+    const Json report = {{"file", arguments.file.string()},
+                         {"joints", model.joints().size()},
+                         {"vertices", model.vertex_count()},
+                         {"targets", model.morph_target_count()},
+                         {"clip", clip == nullptr ? Json() : Json(clip->name)},
+                         {"rounds", arguments.rounds},
+                         {"stages", stages}};
     print_report(report, 2);
 }
 

@@ -8,9 +8,8 @@
 #include <bendy/edit/clips.h>
 #include <bendy/edit/edit.h>
 #include <bendy/format/diagnostics.h>
+#include <bendy/json/json.h>
 #include <bendy/motion/retarget_clips.h>
-
-#include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -57,10 +56,10 @@ edit::Rename read_table(const std::filesystem::path& path) {
     const InputBytes file = open_file(path);
     edit::Rename rename;
     rename.all_must_match = false;
-    const auto table = nlohmann::ordered_json::parse(as_text(file.bytes()), nullptr, false);
-    if (table.is_discarded()) fail(path, "is not JSON");
-    if (!table.is_object()) fail(path, "must be a JSON object, from old names to new ones");
-    for (const auto& [before, after] : table.items()) {
+    const auto table = OrderedJson::parse(as_text(file.bytes()));
+    if (!table) fail(path, "is not JSON");
+    if (!table->is_object()) fail(path, "must be a JSON object, from old names to new ones");
+    for (const auto& [before, after] : table->items()) {
         if (!after.is_string()) fail(path, "\"" + printable(before) + "\" has no text as its new name");
         rename.names.emplace_back(before, after.get<std::string>());
     }

@@ -24,7 +24,7 @@
 namespace bendy::tools {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 struct InspectArguments {
     std::filesystem::path file;

@@ -68,7 +68,7 @@ std::string text_of(const DanglingLink& link) {
 /// The result for one file.
 struct Verdict {
     bool is_valid = false;
-    nlohmann::json json;
+    Json json;
 };
 
 Verdict validate_bendy(const std::filesystem::path& file, const Result<InputBytes>& mapped, bool is_json) {
@@ -92,7 +92,7 @@ Verdict validate_bendy(const std::filesystem::path& file, const Result<InputByte
             warn(file, printable(chunk_path(bytes, link.offset) + ": " + text_of(link)));
     }
     if (!is_json) return verdict;
-    nlohmann::json list = nlohmann::json::array();
+    Json list = Json::array();
     for (const Error& fault : faults.list()) {
         list.push_back({{"code", code_name(fault.code)},
                         {"class", class_name(error_class(fault.code))},
@@ -100,7 +100,7 @@ Verdict validate_bendy(const std::filesystem::path& file, const Result<InputByte
                         {"offset", fault.offset},
                         {"message", why.empty() ? describe(fault) : why}});
     }
-    nlohmann::json warnings = nlohmann::json::array();
+    Json warnings = Json::array();
     for (const DanglingLink& link : links) {
         warnings.push_back(
             {{"path", whole_chunk_path(bytes, link.offset)}, {"offset", link.offset}, {"message", text_of(link)}});
@@ -124,13 +124,13 @@ Verdict validate_source(const std::filesystem::path& file, InputBytes mapped, co
             std::cout << shown_name(file_of(character.error(), file)) << ": " << describe(character.error()) << '\n';
         return verdict;
     }
-    nlohmann::json faults = nlohmann::json::array();
+    Json faults = Json::array();
     if (!is_valid) {
         const converter::ImportError& error = character.error();
         faults.push_back({{"code", "CONVERSION"}, {"path", error.place}, {"message", error.message}});
         if (!error.file.empty()) faults.back()["file"] = error.file.string();
     }
-    nlohmann::json warnings = nlohmann::json::array();
+    Json warnings = Json::array();
     for (const converter::Warning& warning : report.warnings())
         warnings.push_back({{"path", warning.first_place}, {"message", warning.message}, {"count", warning.count}});
     verdict.json["faults"] = std::move(faults);
@@ -141,7 +141,7 @@ Verdict validate_source(const std::filesystem::path& file, InputBytes mapped, co
 
 void run(const ValidateArguments& arguments) {
     bool all_good = true;
-    nlohmann::json reports = nlohmann::json::array();
+    Json reports = Json::array();
     for (const std::filesystem::path& file : arguments.files) {
         Result<InputBytes> mapped = InputBytes::open(file);
         // A file named .bendy is validated as a bendy file, whatever it contains.

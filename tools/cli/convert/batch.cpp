@@ -103,11 +103,11 @@ fs::path in_plain_folder(const fs::path& file) {
     return fs::weakly_canonical(whole.parent_path(), unknown) / whole.filename();
 }
 
-nlohmann::json as_json(const FileStamp& stamp) {
-    return stamp.is_there ? nlohmann::json::array({stamp.size, stamp.modified}) : nlohmann::json();
+Json as_json(const FileStamp& stamp) {
+    return stamp.is_there ? Json::array({stamp.size, stamp.modified}) : Json();
 }
 
-FileStamp as_stamp(const nlohmann::json& numbers) {
+FileStamp as_stamp(const Json& numbers) {
     if (numbers.is_null()) return {};
     return {true, numbers.at(0).get<std::uint64_t>(), numbers.at(1).get<std::int64_t>()};
 }
@@ -124,7 +124,7 @@ BatchPlan plan_batch(const std::vector<fs::path>& inputs, const fs::path& folder
 BatchRecord::BatchRecord(const fs::path& folder) : folder_(folder), file_(file_in(folder)) {
     try {
         read();
-    } catch (const nlohmann::json::exception&) {
+    } catch (const JsonError&) {
         entries_.clear();  // damaged, or of another version: everything is converted again
     }
 }
@@ -144,10 +144,10 @@ void BatchRecord::read() {
             warn(file_, "the record of earlier conversions cannot be read: " + describe(mapped.error()));
         return;
     }
-    const nlohmann::json record = nlohmann::json::parse(as_text(mapped->bytes()));
+    const Json record = Json::parse(as_text(mapped->bytes())).value_or(Json());
     for (const auto& [output, members] : record.at("outputs").items()) {
         Entry entry{members.at("recipe").get<std::string>(), as_stamp(members.at("output")), {}};
-        for (const nlohmann::json& source : members.at("sources"))
+        for (const Json& source : members.at("sources"))
             entry.sources.push_back({source.at(0).get<std::string>(), as_stamp(source.at(1))});
         entries_.emplace(output, std::move(entry));
     }
@@ -170,17 +170,17 @@ void BatchRecord::note(const BatchFile& file, const std::string& recipe, const s
 }
 
 std::string BatchRecord::write() const {
-    nlohmann::json outputs = nlohmann::json::object();
+    Json outputs = Json::object();
     for (const auto& [output, entry] : entries_) {
         if (!converter::stamp_of(folder_ / output).is_there) continue;
-        nlohmann::json sources = nlohmann::json::array();
+        Json sources = Json::array();
         for (const SourceFile& source : entry.sources)
-            sources.push_back(nlohmann::json::array({source.file.string(), as_json(source.stamp)}));
+            sources.push_back(Json::array({source.file.string(), as_json(source.stamp)}));
         outputs[output] = {
             {"recipe", entry.recipe}, {"output", as_json(entry.output)}, {"sources", std::move(sources)}};
     }
     // A name that is not UTF-8 is not stored, so its file is converted again.
-    const std::string text = json_text(nlohmann::json{{"outputs", std::move(outputs)}});
+    const std::string text = json_text(Json{{"outputs", std::move(outputs)}});
     const auto written = write_file(file_, as_byte_span(text));
     return written ? std::string() : bendy::describe(written.error());
 }

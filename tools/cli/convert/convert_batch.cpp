@@ -57,7 +57,7 @@ struct Outcome {
     std::uint64_t size = 0;  ///< of the output
     std::chrono::duration<double> time{0.0};
     std::optional<Failure> failure;
-    nlohmann::ordered_json json;  ///< with --json, for a successful conversion
+    OrderedJson json;  ///< with --json, for a successful conversion
 };
 
 /// The share of a file that is done; updated from any thread. It is outside Batch's lock, to keep progress reports

@@ -81,7 +81,7 @@ std::span<const float> floats_of(std::span<const glm::vec3> vectors) {
 }
 
 std::string as_json(const std::string& text) {
-    return json_text(nlohmann::json(text));
+    return json_text(Json(text));
 }
 
 /// JSON cannot express infinities.

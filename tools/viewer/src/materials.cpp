@@ -3,9 +3,9 @@
 #include "image_reader.h"
 
 #include <bendy/format/file.h>
+#include <bendy/json/json.h>
 
 #include <glm/common.hpp>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,22 +16,22 @@ namespace bendy::viewer {
 namespace {
 
 /// Returns a number of an extension; nothing if it is not a finite number of at least 0.
-std::optional<float> number_of(const nlohmann::json& value) {
+std::optional<float> number_of(const Json& value) {
     if (!value.is_number()) return std::nullopt;
     const auto number = value.get<float>();
     return std::isfinite(number) && number >= 0.0f ? std::optional(number) : std::nullopt;
 }
 
-nlohmann::json member(const nlohmann::json& object, const char* key) {
+Json member(const Json& object, const char* key) {
     if (!object.is_object()) return nullptr;
     const auto found = object.find(key);
-    return found == object.end() ? nlohmann::json() : *found;
+    return found == object.end() ? Json() : *found;
 }
 
 ShownSurface shown_surface(const MaterialView& material) {
     ShownSurface surface{material.surface};
     if (material.extensions.empty()) return surface;
-    const auto extensions = nlohmann::json::parse(material.extensions, nullptr, false);
+    const auto extensions = Json::parse(material.extensions).value_or(Json());
     const float strength =
         number_of(member(member(extensions, "KHR_materials_emissive_strength"), "emissiveStrength")).value_or(1.0f);
     for (float& colour : surface.record.emissive) colour *= strength;
@@ -39,9 +39,9 @@ ShownSurface shown_surface(const MaterialView& material) {
     // 0 represents an infinite index: everything is reflected.
     const float ior = number_of(member(member(extensions, "KHR_materials_ior"), "ior")).value_or(1.5f);
     const float from_ahead = ior == 0.0f ? 1.0f : (ior - 1.0f) / (ior + 1.0f);
-    const nlohmann::json specular = member(extensions, "KHR_materials_specular");
+    const Json specular = member(extensions, "KHR_materials_specular");
     glm::vec3 colour(1.0f);
-    const nlohmann::json factors = member(specular, "specularColorFactor");
+    const Json factors = member(specular, "specularColorFactor");
     for (int k = 0; k < 3 && factors.is_array() && factors.size() == 3; ++k)
         colour[k] = number_of(factors[static_cast<std::size_t>(k)]).value_or(1.0f);
     surface.dielectric_at_grazing = std::min(number_of(member(specular, "specularFactor")).value_or(1.0f), 1.0f);

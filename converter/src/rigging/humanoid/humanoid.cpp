@@ -307,7 +307,7 @@ std::optional<BoneName> read_bone_name(std::string_view name) {
 
 std::optional<VrmHumanoid> read_vrm_humanoid(const Scene& scene, Report& report) {
     if (scene.extensions.empty()) return std::nullopt;
-    const Json extensions = Json::parse(scene.extensions, nullptr, false);
+    const Json extensions = Json::parse(scene.extensions).value_or(Json());
     if (!extensions.is_object()) return std::nullopt;
     Reader reader(scene, report);
     VrmHumanoid result;

@@ -188,7 +188,7 @@ EulerOrder order_of(std::vector<std::size_t> axes) {
 }
 
 /// Clamps to the range of float: limits must be finite.
-float to_float(double value) {
+float as_float(double value) {
     constexpr double kMost = std::numeric_limits<float>::max();
     return static_cast<float>(std::clamp(value, -kMost, kMost));
 }
@@ -220,14 +220,14 @@ ConstraintRecord to_limit(const Articulation& articulation, const Joint& joint, 
         const std::size_t axis = (i + first) % 3;
         const Stage turn = motions.turns[axis].value_or(Stage{});
         const Stage shift = motions.shifts[axis].value_or(Stage{});
-        constraint.rotation_min[i] = to_float(turn.low * kDegree);
-        constraint.rotation_max[i] = to_float(turn.high * kDegree);
-        constraint.preferred[i] = to_float(turn.initial * kDegree);
+        constraint.rotation_min[i] = as_float(turn.low * kDegree);
+        constraint.rotation_max[i] = as_float(turn.high * kDegree);
+        constraint.preferred[i] = as_float(turn.initial * kDegree);
         // The stages stand to the right of the node's matrix, so its scale applies to them.
         const auto scale = static_cast<double>(joint.rest.scale[static_cast<int>(axis)]);
         const auto [low, high] = std::minmax({shift.low * scale, shift.high * scale});
-        constraint.translation_min[i] = to_float(low);
-        constraint.translation_max[i] = to_float(high);
+        constraint.translation_min[i] = as_float(low);
+        constraint.translation_max[i] = as_float(high);
     }
     if (!has_even_scale(joint.rest)) motions.is_exact = false;
     if (!motions.is_exact) constraint.flags |= kApproximated;
@@ -237,7 +237,7 @@ ConstraintRecord to_limit(const Articulation& articulation, const Joint& joint, 
 
 std::optional<std::string> articulation_of(const Joint& joint, Report& report) {
     if (joint.extensions.find(kName) == std::string::npos) return std::nullopt;
-    const Json extensions = Json::parse(joint.extensions, nullptr, false);
+    const Json extensions = Json::parse(joint.extensions).value_or(Json());
     if (!extensions.is_object() || !extensions.contains(kName)) return std::nullopt;
     std::optional<std::string> name = text_of(extensions[kName], "articulationName");
     const bool is_attach_point = extensions[kName].is_object() && extensions[kName].contains("isAttachPoint");
@@ -249,7 +249,7 @@ std::optional<std::string> articulation_of(const Joint& joint, Report& report) {
 
 void add_articulations(Scene& scene, const std::vector<bool>& claimed, Report& report) {
     if (scene.extensions.find(kName) == std::string::npos) return;
-    const Json extensions = Json::parse(scene.extensions, nullptr, false);
+    const Json extensions = Json::parse(scene.extensions).value_or(Json());
     if (!extensions.is_object() || !extensions.contains(kName)) return;
     const std::map<std::string, Articulation> articulations = read_articulations(extensions[kName], report);
     for (std::size_t number = 0; number < scene.joints.size(); ++number) {

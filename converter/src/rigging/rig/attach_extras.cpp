@@ -84,8 +84,7 @@ private:
             Extra extra{joint, place, *member};
             extra.place.append(".").append(member.key());
             guard("extras left out", extra.place, [&] {
-                if (member->is_string())
-                    extra.value = parse_json_text<OrderedJson>(member->get_ref<const std::string&>(), report_);
+                if (member->is_string()) extra.value = parse_json_text<OrderedJson>(member->text(), report_);
                 (is_joint ? joints_ : chains_).push_back(extra);
             });
         }

@@ -308,7 +308,7 @@ private:
 
     std::uint32_t find_joint(const OrderedJson& name, const std::string& place) const {
         if (!name.is_string()) fail(place, "it must be a string, not " + shown(name));
-        const std::uint32_t joint = rig_.index.find(name.get_ref<const std::string&>(), node_);
+        const std::uint32_t joint = rig_.index.find(name.text(), node_);
         if (joint == kNone) fail(place, "there is no joint " + shown(name));
         return joint;
     }
@@ -336,7 +336,7 @@ private:
     std::uint32_t find_start(const OrderedJson& names, const std::string& place) {
         for (std::size_t i = 0; i < names.size(); ++i) {
             if (!names[i].is_string()) fail(at(place, i), "it must be a string, not " + shown(names[i]));
-            const std::uint32_t joint = rig_.index.find(names[i].get_ref<const std::string&>(), node_);
+            const std::uint32_t joint = rig_.index.find(names[i].text(), node_);
             if (joint != kNone) return joint;
             chain_.record.flags |= kApproximated;
             report_.warn("a chain starts at a joint that does not exist: it starts below", at(place, i));

@@ -18,7 +18,7 @@ float shown_in(float value, Notation notation) {
     return notation == Notation::rig_file ? static_cast<float>(value / kRadiansPerDegree) : value;
 }
 
-std::string shown(float value) {
+std::string in_digits(float value) {
     return OrderedJson(static_cast<double>(value)).dump();
 }
 
@@ -34,8 +34,8 @@ const OrderedJson& need_list_of(std::size_t size, const OrderedJson& value, cons
 void check_between(float number, float low, float high, const std::string& place) {
     if (number >= low && number <= high) return;
     fail(place, high < std::numeric_limits<float>::max()
-                    ? shown(number) + " is not between " + shown(low) + " and " + shown(high)
-                    : shown(number) + " is less than " + shown(low));
+                    ? in_digits(number) + " is not between " + in_digits(low) + " and " + in_digits(high)
+                    : in_digits(number) + " is less than " + in_digits(low));
 }
 
 void read_pair(const OrderedJson& value, const std::string& place, Notation notation, float& low, float& high) {
@@ -43,8 +43,8 @@ void read_pair(const OrderedJson& value, const std::string& place, Notation nota
     const float least = value[0].is_null() ? -kInfinity : to_float(value[0], at(place, 0), notation);
     const float most = value[1].is_null() ? kInfinity : to_float(value[1], at(place, 1), notation);
     if (least > most) {
-        fail(place, "the minimum " + shown(shown_in(least, notation)) + " is above the maximum " +
-                        shown(shown_in(most, notation)));
+        fail(place, "the minimum " + in_digits(shown_in(least, notation)) + " is above the maximum " +
+                        in_digits(shown_in(most, notation)));
     }
     low = least;
     high = most;
@@ -63,7 +63,7 @@ std::string spelled(std::string_view word, Notation notation) {
 }
 
 std::string shown(const OrderedJson& value) {
-    if (value.is_string()) return quote(value.get_ref<const std::string&>());
+    if (value.is_string()) return quote(value.text());
     if (value.is_number() || value.is_boolean()) return value.dump();
     return value.type_name();
 }
@@ -132,7 +132,7 @@ void Fields::read(std::string_view key, std::string& text) {
     const OrderedJson* value = find(key);
     if (value == nullptr) return;
     if (!value->is_string()) fail(place_of(key), "it must be a string, not " + shown(*value));
-    text = value->get_ref<const std::string&>();
+    text = value->text();
 }
 
 void Fields::read(std::string_view key, bool& value) {
@@ -211,7 +211,7 @@ void Fields::read_word(std::string_view key, std::span<const std::string_view> w
     if (value == nullptr) return;
     if (value->is_string()) {
         const auto word = std::find_if(words.begin(), words.end(), [&](std::string_view each) {
-            return spelled(each, notation_) == value->get_ref<const std::string&>();
+            return spelled(each, notation_) == value->text();
         });
         if (word != words.end()) {
             number = static_cast<std::uint8_t>(word - words.begin());

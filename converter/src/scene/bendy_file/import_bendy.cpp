@@ -12,8 +12,7 @@
 #include <bendy/format/file.h>
 #include <bendy/format/material.h>
 #include <bendy/format/records.h>
-
-#include <nlohmann/json.hpp>
+#include <bendy/json/json.h>
 
 #include <algorithm>
 #include <array>
@@ -77,8 +76,7 @@ std::vector<Member> members_of(std::string_view text) {
 void read_source_facts(std::string_view text, Scene& scene, Report& report) {
     if (text.empty()) return;
     const std::string_view json = trimmed(text);
-    if (!nlohmann::json::accept(json.begin(), json.end()))
-        return report.warn("the file's own data is not JSON, left out", "HEAD/EXTR");
+    if (!is_json(json)) return report.warn("the file's own data is not JSON, left out", "HEAD/EXTR");
     std::vector<Member> members;
     if (json.front() == '{') members = members_of(json);
     const auto is_fact = [](const Member& member) {

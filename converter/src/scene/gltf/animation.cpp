@@ -74,11 +74,10 @@ bool asks_to_loop(const Json& animation) {
 /// The names of the expressions of a VRM animation, by the joint whose X is the expression's weight.
 std::map<std::uint32_t, std::string> find_expressions(const Json& root, const Skeleton& skeleton) {
     std::map<std::uint32_t, std::string> names;
-    const Json::json_pointer all("/extensions/" + std::string(kVrmAnimation) + "/expressions");
-    for (const char* kind : {"/preset", "/custom"}) {
-        const Json::json_pointer place = all / Json::json_pointer(kind);
-        if (!root.contains(place) || !root[place].is_object()) continue;
-        for (const auto& [name, expression] : root[place].items()) {
+    const Json& all = root["extensions"][kVrmAnimation]["expressions"];
+    for (const char* kind : {"preset", "custom"}) {
+        if (!all[kind].is_object()) continue;
+        for (const auto& [name, expression] : all[kind].items()) {
             const Json* node = expression.is_object() ? find(expression, "node") : nullptr;
             if (node == nullptr || !node->is_number_unsigned()) continue;
             const auto number = node->get<std::uint64_t>();

@@ -252,7 +252,7 @@ bool is_one_of(std::string_view value, std::string_view choices) {
 }
 
 std::string shown(const Json& value) {
-    if (value.is_string()) return quote(value.get_ref<const std::string&>());
+    if (value.is_string()) return quote(value.text());
     if (value.is_number() || value.is_boolean()) return value.dump();
     return value.type_name();
 }
@@ -261,7 +261,7 @@ std::string shown(const Json& value) {
 bool make_integer(Json& value) {
     if (value.is_number_integer()) return true;
     if (!value.is_number_float()) return false;
-    const double number = value.get<double>();
+    const auto number = value.get<double>();
     if (!(std::abs(number) <= kMaxSize) || number != std::floor(number)) return false;
     if (number < 0) {
         value = static_cast<std::int64_t>(number);
@@ -334,7 +334,7 @@ private:
                 break;
             case Kind::integer: {
                 if (!make_integer(value)) fail_type(value, "an integer");
-                const double number = value.get<double>();
+                const auto number = value.get<double>();
                 if (number < rule.low || number > rule.high) fail(place_, shown(value) + " is out of range");
                 break;
             }
@@ -361,7 +361,7 @@ private:
                 break;
             case Kind::choice:
                 make_integer(value);
-                if (!is_one_of(value.is_string() ? value.get_ref<const std::string&>() : shown(value), rule.of)) {
+                if (!is_one_of(value.is_string() ? value.text() : shown(value), rule.of)) {
                     fail(place_, shown(value) + " is not one of " + std::string(rule.of));
                 }
                 break;
@@ -393,7 +393,7 @@ void check_asset(const Json& root) {
     const Json* version = find(*asset, "version");
     if (version == nullptr) fail("asset.version", "it is required and missing");
     if (!version->is_string()) fail("asset.version", "it must be a string, not " + shown(*version));
-    if (!is_version(version->get_ref<const std::string&>(), "2")) {
+    if (!is_version(version->text(), "2")) {
         fail("asset.version", "glTF version " + shown(*version) + " is not supported, only 2.x");
     }
     const Json* minimum = find(*asset, "minVersion");
@@ -411,7 +411,7 @@ void check_required_extensions(const Json& root, bool with_instances) {
         if (!name.is_string()) fail(at("extensionsRequired", i), "it must be a string, not " + shown(name));
         const bool is_instancing = name == kInstancing;
         if (is_instancing && with_instances) continue;
-        if (!is_known_extension(name.get_ref<const std::string&>())) {
+        if (!is_known_extension(name.text())) {
             fail(at("extensionsRequired", i), "the file requires extension " + shown(name) +
                                                   ", which is not supported" +
                                                   (is_instancing ? " unless instances are made (--instances)" : ""));
@@ -470,7 +470,7 @@ void move_target_names(Json& root, Report& report) {
             each(primitive, "targets", [&](Json& target, std::size_t t) {
                 const std::string place = at("meshes", m) + '.' + at("primitives", p) + '.' + at("targets", t);
                 names.push_back(target.is_object() ? take_target_name(target, place, report) : std::string());
-                has_names = has_names || !names.back().get_ref<const std::string&>().empty();
+                has_names = has_names || !names.back().text().empty();
             });
             if (!has_names) return;
             Json& extras = primitive["extras"];

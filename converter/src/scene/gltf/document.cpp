@@ -124,7 +124,7 @@ Buffers::Buffers(const Json& root, const Container& container, NamedFiles& files
         const auto length = buffers[i]["byteLength"].get<std::uint64_t>();
         Buffer& buffer = buffers_[i];
         if (const Json* uri = find(buffers[i], "uri"); uri != nullptr) {
-            const auto& text = uri->get_ref<const std::string&>();
+            const auto& text = uri->text();
             if (is_data_uri(text)) {
                 buffer.owned = decode_data_uri(text, place + ".uri").bytes;
                 buffer.bytes = buffer.owned;

@@ -168,7 +168,7 @@ void report_extensions(const Json& root, Report& report) {
     const Json& used = array_of(root, "extensionsUsed");
     for (std::size_t i = 0; i < used.size(); ++i) {
         // Listed but not used: still something that the author relied on. Materials are reported elsewhere.
-        const auto& name = used[i].get_ref<const std::string&>();
+        const auto& name = used[i].text();
         if (finder.kept.count(name) != 0) continue;
         const auto& occurrence = finder.found.emplace(name, Occurrence{at("extensionsUsed", i), 0}).first->second;
         if (occurrence.count == 0 && name.rfind("KHR_materials_", 0) == 0) finder.found.erase(name);
@@ -293,23 +293,24 @@ public:
         // import_rig_extensions has read these.
         kept.erase(std::string(place.empty() ? kIkChains : kJointLimits));
         if (!place.empty()) kept.erase(std::string(kJointRole));
-        for (auto extension = kept.begin(); extension != kept.end();) {
+        std::vector<std::string> gone;
+        for (auto extension = kept.begin(); extension != kept.end(); ++extension) {
             const std::string at_extension = here + '.' + key(extension.key());
             if (place.empty() && extension.key() == kVariants) {
                 document_.report.warn("extension left out, primitives do not keep the mappings to its variants: " +
                                           quote(extension.key()),
                                       at_extension);
-                extension = kept.erase(extension);
+                gone.push_back(extension.key());
                 continue;
             }
             if (extension.key() == kInstancing && !place.empty() && !keep_instances(*extension, at_extension)) {
-                extension = kept.erase(extension);
+                gone.push_back(extension.key());
                 continue;
             }
             if (const std::string message = kept_message(extension.key()); !message.empty())
                 document_.report.warn(message, at_extension);
-            ++extension;
         }
+        kept.erase_members(gone);
         return kept.empty() ? std::string() : renumbered(kept, place);
     }
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <set>
 #include <span>
 #include <utility>
@@ -193,11 +192,10 @@ Json further_members(const Json& object, Element element) {
 
 std::vector<std::string> take_drafts(Json& object, Element element) {
     std::vector<std::string> taken;
-    for (auto member = object.begin(); member != object.end();) {
-        const bool is_draft = lists(shape_of(element).draft, member.key());
-        if (is_draft) taken.push_back(member.key());
-        member = is_draft ? object.erase(member) : std::next(member);
+    for (auto member = object.begin(); member != object.end(); ++member) {
+        if (lists(shape_of(element).draft, member.key())) taken.push_back(member.key());
     }
+    object.erase_members(taken);
     return taken;
 }
 
@@ -221,7 +219,7 @@ void lose_members(const Json& object, Element element, std::string_view nouns, c
             } else if (member.key() == "extras") {
                 losses.add("extras" + of, here, here);
             } else if (member.key() == "name" && member->is_string() && open.place == place) {
-                losses.add("names" + of, quote(member->get_ref<const std::string&>()), here);
+                losses.add("names" + of, quote(member->text()), here);
             } else {
                 losses.add("members that glTF does not define" + of, here, here);
             }
@@ -231,8 +229,8 @@ void lose_members(const Json& object, Element element, std::string_view nouns, c
 
 std::string call(const Json& element, std::string_view array, std::size_t index) {
     const Json* name = find(element, "name");
-    const bool is_named = name != nullptr && name->is_string() && !name->get_ref<const std::string&>().empty();
-    return is_named ? quote(name->get_ref<const std::string&>()) : at(array, index);
+    const bool is_named = name != nullptr && name->is_string() && !name->text().empty();
+    return is_named ? quote(name->text()) : at(array, index);
 }
 
 namespace {
@@ -387,19 +385,19 @@ private:
         std::vector<bool> is_placed(assets.size());
         const auto call_asset = [&](std::size_t asset) {
             const Json* file = assets[asset].is_object() ? find(assets[asset], "file") : nullptr;
-            const bool is_there = file != nullptr && file->is_number_unsigned() && *file < files.size();
+            const bool is_there =
+                file != nullptr && file->is_number_unsigned() && file->get<std::uint64_t>() < files.size();
             const Json* uri = is_there && files[file->get<std::size_t>()].is_object()
                                   ? find(files[file->get<std::size_t>()], "uri")
                                   : nullptr;
             const std::string name =
                 assets[asset].is_object() ? call(assets[asset], "externalAssets", asset) : at("externalAssets", asset);
-            return uri == nullptr || !uri->is_string() ? name
-                                                       : name + " (" + quote(uri->get_ref<const std::string&>()) + ')';
+            return uri == nullptr || !uri->is_string() ? name : name + " (" + quote(uri->text()) + ')';
         };
         for (const std::uint32_t node : nodes_) {
             const Json* asset = find(root_["nodes"][node], "externalAsset");
             if (asset == nullptr) continue;
-            const bool is_there = asset->is_number_unsigned() && *asset < assets.size();
+            const bool is_there = asset->is_number_unsigned() && asset->get<std::uint64_t>() < assets.size();
             if (is_there) is_placed[asset->get<std::size_t>()] = true;
             losses_.add(kExternal,
                         (is_there ? call_asset(asset->get<std::size_t>()) : "externalAssets[" + asset->dump() + ']') +

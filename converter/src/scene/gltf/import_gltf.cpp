@@ -52,7 +52,7 @@ Scene import(std::vector<std::byte> bytes, ReadableFolders folders, const GltfOp
     scene.source_extras = extras_text(root);
     Json asset = root["asset"];
     if (asset["version"] != "2.0") {
-        report.warn("glTF " + quote(asset["version"].get_ref<const std::string&>()) +
+        report.warn("glTF " + quote(asset["version"].text()) +
                         " is read as glTF 2.0: what only the later version has is kept as JSON, not interpreted",
                     "asset.version");
     }

@@ -265,7 +265,7 @@ public:
             document_.budget.take(bytes.size(), 1, place);
             image.bytes.assign(bytes.begin(), bytes.end());
         } else if (uri != nullptr) {
-            read_uri(uri->get_ref<const std::string&>(), place + ".uri", image);
+            read_uri(uri->text(), place + ".uri", image);
         } else {
             document_.report.warn("image with neither bufferView nor uri", place);
         }

@@ -59,7 +59,8 @@ const std::string* pointer_of(const Json& channel) {
     if (target["path"] != "pointer") return nullptr;
     const Json* extensions = find(target, "extensions");
     const Json* extension = extensions == nullptr || !extensions->is_object() ? nullptr : find(*extensions, kExtension);
-    return extension == nullptr ? nullptr : (*extension)["pointer"].get_ptr<const std::string*>();
+    const Json* pointer = extension == nullptr ? nullptr : find(*extension, "pointer");
+    return pointer == nullptr || !pointer->is_string() ? nullptr : &pointer->text();
 }
 
 std::string curve_name(const Json& channel) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <bendy/json/json.h>
 
 #include <string>
 #include <string_view>

@@ -9,6 +9,7 @@
 #include "scene/failure.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -17,53 +18,41 @@
 namespace bendy::converter::gltf {
 namespace {
 
-/// Holds the `extensions` and `extras` of objects while tinygltf reads these, and puts them back in the end. tinygltf
-/// would copy them, and takes 152 bytes for each value.
-class SetAside {
-public:
-    SetAside() = default;
-    SetAside(const SetAside&) = delete;
-    SetAside(SetAside&&) = delete;
-    SetAside& operator=(const SetAside&) = delete;
-    SetAside& operator=(SetAside&&) = delete;
-    ~SetAside() {
-        for (Member& member : members_) member.owner->insert(std::move(member.node));
-    }
-
-    /// Takes them out of all objects below `array`.
-    void take_from(Json& array) {
-        std::vector<Json*> pending{&array};
-        while (!pending.empty()) {
-            Json& value = *pending.back();
-            pending.pop_back();
-            if (value.is_object()) take_members(value.get_ref<Json::object_t&>());
-            for (Json& inner : value) {
-                if (inner.is_structured()) pending.push_back(&inner);
+/// The same for tinygltf, without `extensions` and `extras`: it would copy them, and takes 152 bytes for each value.
+// NOLINTNEXTLINE(misc-no-recursion): parsed JSON is at most 128 levels deep
+nlohmann::json for_tinygltf(const Json& value) {
+    switch (value.kind()) {
+        case JsonKind::null:
+            return nullptr;
+        case JsonKind::boolean:
+            return value.get<bool>();
+        case JsonKind::negative:
+            return value.get<std::int64_t>();
+        case JsonKind::unsigned_integer:
+            return value.get<std::uint64_t>();
+        case JsonKind::number:
+            return value.get<double>();
+        case JsonKind::string:
+            return value.text();
+        case JsonKind::array:
+            break;
+        case JsonKind::object:
+            nlohmann::json object = nlohmann::json::object();
+            for (const auto& [name, member] : value.items()) {
+                if (name != "extensions" && name != "extras") object[name] = for_tinygltf(member);
             }
-        }
+            return object;
     }
-
-private:
-    struct Member {
-        Json::object_t* owner;
-        Json::object_t::node_type node;
-    };
-
-    void take_members(Json::object_t& object) {
-        for (const char* name : {"extensions", "extras"}) {
-            if (const auto member = object.find(name); member != object.end())
-                members_.push_back({&object, object.extract(member)});
-        }
-    }
-
-    std::vector<Member> members_;
-};
+    nlohmann::json array = nlohmann::json::array();
+    for (const Json& element : value) array.push_back(for_tinygltf(element));
+    return array;
+}
 
 /// Calls one of tinygltf's readers. In version 2.9 some of them have two more parameters: for warnings, and for how
 /// strict to be.
 template <class Read, class Element, class... Context>
-bool call(Read read, Element& element, std::string& error, const Json& json, Context... context) {
-    if constexpr (std::is_invocable_v<Read, Element*, Context..., std::string*, const Json&, bool>) {
+bool call(Read read, Element& element, std::string& error, const nlohmann::json& json, Context... context) {
+    if constexpr (std::is_invocable_v<Read, Element*, Context..., std::string*, const nlohmann::json&, bool>) {
         return read(&element, context..., &error, json, false);
     } else {
         std::string warning;
@@ -78,18 +67,18 @@ void read_all(std::vector<Element>& elements, const Json& root, const char* name
     elements.resize(array.size());
     for (std::size_t i = 0; i < array.size(); ++i) {
         std::string error;
-        if (!call(read, elements[i], error, array[i], context...))
+        if (!call(read, elements[i], error, for_tinygltf(array[i]), context...))
             fail(at(name, i), "tinygltf: " + error.substr(0, error.find('\n')));
     }
 }
 
-bool read_scene(tinygltf::Scene* scene, std::string* error, const Json& json, bool /*keep_text*/) {
+bool read_scene(tinygltf::Scene* scene, std::string* error, const nlohmann::json& json, bool /*keep_text*/) {
     tinygltf::ParseStringProperty(&scene->name, error, json, "name", false);
     tinygltf::ParseIntegerArrayProperty(&scene->nodes, error, json, "nodes", false);
     return true;
 }
 
-bool read_texture(tinygltf::Texture* texture, std::string* error, const Json& json, bool keep_text) {
+bool read_texture(tinygltf::Texture* texture, std::string* error, const nlohmann::json& json, bool keep_text) {
     return tinygltf::ParseTexture(texture, error, json, keep_text, {});
 }
 
@@ -122,13 +111,7 @@ void complete_channels(std::vector<tinygltf::AnimationChannel>& channels, const 
 
 }  // namespace
 
-tinygltf::Model read_structure(Json& root) {
-    SetAside set_aside;
-    for (const char* name :
-         {"accessors", "animations", "materials", "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
-        if (const auto array = root.find(name); array != root.end()) set_aside.take_from(*array);
-    }
-
+tinygltf::Model read_structure(const Json& root) {
     tinygltf::Model model;
     read_all(model.accessors, root, "accessors", tinygltf::ParseAccessor);
     read_all(model.animations, root, "animations", tinygltf::ParseAnimation);

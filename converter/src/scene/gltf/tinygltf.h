@@ -13,8 +13,7 @@ namespace bendy::converter::gltf {
 
 /// Lets tinygltf's readers fill its structs from JSON that parse_json has checked. They get no buffers, images,
 /// cameras, extensions and extras, so they open no file and decode nothing; the importer reads those from the JSON.
-/// Elements keep their indices, and a channel without a target node has target_node -1. `root` is changed while this
-/// runs; afterwards it is as before.
-tinygltf::Model read_structure(Json& root);
+/// Elements keep their indices, and a channel without a target node has target_node -1.
+tinygltf::Model read_structure(const Json& root);
 
 }  // namespace bendy::converter::gltf

@@ -119,15 +119,10 @@ std::uint32_t Buffer::add_view(Bytes bytes, std::size_t element, Use use) {
 }
 
 std::uint32_t Buffer::add_accessor(Json accessor) {
-    const std::size_t hash = std::hash<Json>()(accessor);
-    const auto [first, last] = known_accessors_.equal_range(hash);
-    for (auto known = first; known != last; ++known) {
-        if (accessors_[known->second] == accessor) return known->second;
-    }
-    const auto index = static_cast<std::uint32_t>(accessors_.size());
-    accessors_.push_back(std::move(accessor));
-    known_accessors_.emplace(hash, index);
-    return index;
+    const auto [known, is_new] =
+        known_accessors_.try_emplace(accessor.dump(), static_cast<std::uint32_t>(accessors_.size()));
+    if (is_new) accessors_.push_back(std::move(accessor));
+    return known->second;
 }
 
 std::uint32_t Buffer::add_floats(std::span<const float> values, std::uint32_t components, Use use, bool with_bounds) {

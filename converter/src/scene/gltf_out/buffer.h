@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -50,8 +51,8 @@ private:
     std::vector<std::byte> bytes_;
     Json views_ = Json::array();
     Json accessors_ = Json::array();
-    std::unordered_multimap<std::size_t, std::uint32_t> known_views_;      ///< by hash of content
-    std::unordered_multimap<std::size_t, std::uint32_t> known_accessors_;  ///< by hash of JSON
+    std::unordered_multimap<std::size_t, std::uint32_t> known_views_;  ///< by hash of content
+    std::unordered_map<std::string, std::uint32_t> known_accessors_;   ///< by their text
 };
 
 }  // namespace bendy::converter::gltf_out

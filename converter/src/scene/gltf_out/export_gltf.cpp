@@ -37,8 +37,7 @@ Json write_asset(const Scene& scene, Report& report) {
     try {
         auto asset = parse_json_text<Json>(scene.asset, report);
         const auto version = asset.is_object() ? asset.find("version") : asset.end();
-        if (asset.is_object() && version != asset.end() && version->is_string() &&
-            version->get_ref<const std::string&>().starts_with("2.")) {
+        if (asset.is_object() && version != asset.end() && version->is_string() && version->text().starts_with("2.")) {
             *version = "2.0";
             asset.erase("minVersion");  // no later than that
             gltf_out::leave_out_drafts(asset, gltf::Element::asset, "asset", report);

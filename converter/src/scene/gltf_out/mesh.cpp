@@ -106,10 +106,10 @@ bool has_primitives(const Mesh& mesh) {
                                                   [](const Submesh& submesh) { return !submesh.indices.empty(); });
 }
 
-/// The identity of a glTF skin: the palette, and the node's members for the skin (null: none).
+/// The identity of a glTF skin: the palette, and the text of the node's members for the skin (empty: none).
 struct SkinKey {
     const Palette* palette;
-    const Json* members;
+    std::string members;
 };
 
 /// Orders skins by content.
@@ -119,9 +119,7 @@ struct SkinLess {
         const std::size_t size = a.palette->inverse_bind.size() * sizeof(glm::mat4);
         const int order =
             size == 0 ? 0 : std::memcmp(a.palette->inverse_bind.data(), b.palette->inverse_bind.data(), size);
-        if (order != 0) return order < 0;
-        if (a.members == b.members || b.members == nullptr) return false;
-        return a.members == nullptr || *a.members < *b.members;
+        return order != 0 ? order < 0 : a.members < b.members;
     }
 };
 
@@ -411,7 +409,8 @@ private:
         const Palette& palette = source.palette;
         const Json* members = members_of_skin(source);
         const auto number = static_cast<std::uint32_t>(out_.skins.size());
-        const auto [known, is_new] = skins_.try_emplace({&palette, members}, number);
+        const auto [known, is_new] =
+            skins_.try_emplace({&palette, members == nullptr ? std::string() : members->dump()}, number);
         if (!is_new) return known->second;
         if (palette.joints.size() > kMostJoints)
             fail(at("meshes", mesh), "glTF cannot bind vertices to more than 65,536 joints");

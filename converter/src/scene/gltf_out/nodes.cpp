@@ -157,7 +157,7 @@ void add_extensions(Json& object, const std::string& extensions, extensions::Hos
         if (found->erase(name) != 0)
             report.warn(std::string("extension left out, numbers in it are the source's: ") + name, place);
     }
-    if (found->empty()) object.erase(found);
+    if (found->empty()) object.erase("extensions");
 }
 
 Json export_nodes(const Scene& scene, const extensions::NewNumber& numbers, Report& report) {
@@ -217,7 +217,7 @@ std::optional<Numbers> read_numbers(const Json& attribute) {
     const Json& values = attribute["values"];
     if (numbers.components == 0 || !values.is_array() || values.empty() || values.size() % numbers.components != 0)
         return std::nullopt;
-    const bool are_integers = attribute.value("integers", Json()) == true;
+    const bool are_integers = attribute["integers"] == true;
     for (const Json& value : values) {
         if (are_integers) {
             if (!value.is_number_unsigned() || value.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max())
