@@ -85,7 +85,7 @@ if wants web gate all; then
 fi
 if wants test gate all; then
     python3 -c 'import jsonschema' 2>/dev/null || missing+=(python3-jsonschema)
-    for module in numpy pytest; do # of the system's Python, for which the Python package is built
+    for module in jsonschema numpy pytest; do # of the system's Python, for which the Python package is built
         /usr/bin/python3 -c "import $module" 2>/dev/null || missing+=("python3-$module")
     done
     need /usr/include/pybind11/pybind11.h pybind11-dev
