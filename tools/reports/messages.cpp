@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
-#include <new>
 
 namespace bendy::tools {
 namespace {
@@ -233,10 +232,6 @@ void fail(const std::filesystem::path& file, std::string_view what) {
 
 void fail(const std::filesystem::path& file, const Error& error, Bytes bytes) {
     fail(file, describe_with_place(error, bytes));
-}
-
-std::string what_of(const std::exception& problem) {
-    return dynamic_cast<const std::bad_alloc*>(&problem) != nullptr ? "not enough memory" : printable(problem.what());
 }
 
 void warn(const std::filesystem::path& file, std::string_view what) {

@@ -9,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
@@ -86,8 +85,6 @@ struct Failed {
 [[noreturn]] void fail(const std::filesystem::path& file, std::string_view what);
 /// The same for a fault in a file's bytes, with chunk path and offset.
 [[noreturn]] void fail(const std::filesystem::path& file, const Error& error, Bytes bytes);
-/// Returns what an exception of the C++ library or of another one says, in our words.
-std::string what_of(const std::exception& problem);
 /// Prints `bendy: warning: FILE: what` to standard error, escaped.
 void warn(const std::filesystem::path& file, std::string_view what);
 

@@ -19,6 +19,7 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <new>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -244,8 +245,10 @@ void run(const DiffArguments& arguments) {
         std::cerr << error_label() << shown_name(arguments.files[0])
                   << ": tracks share more keys than can be compared\n";
         throw Failed{kTrouble};
+    } catch (const std::bad_alloc&) {
+        throw;  // the program says so, and ends with the status of failures
     } catch (const std::exception& problem) {
-        std::cerr << error_label() << what_of(problem) << '\n';
+        std::cerr << error_label() << printable(problem.what()) << '\n';
         throw Failed{kTrouble};
     }
     if (!same) throw Failed{kDiffers};

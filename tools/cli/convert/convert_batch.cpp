@@ -18,6 +18,7 @@
 #include <iostream>
 #include <map>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <set>
 #include <shared_mutex>
@@ -129,8 +130,10 @@ private:
             std::shared_lock writing(writing_, std::defer_lock);  // held until the written file is recorded
             try {
                 outcome.failure = convert(next, outcome, writing);
+            } catch (const std::bad_alloc&) {
+                outcome.failure = Failure{file.input, "not enough memory"};
             } catch (const std::exception& problem) {
-                outcome.failure = Failure{file.input, what_of(problem)};
+                outcome.failure = Failure{file.input, printable(problem.what())};
             }
             outcome.time = Clock::now() - start;
             shares_[next].done.store(1.0f, std::memory_order_relaxed);
