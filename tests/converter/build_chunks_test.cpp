@@ -1,4 +1,5 @@
 #include <bendy/converter/build_chunks.h>
+#include <bendy/converter/import.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 #include <bendy/runtime.h>
@@ -6,8 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
+#include <initializer_list>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -322,6 +326,70 @@ TEST(BuildChunks, PolygonsSurviveWithTheirMaterialsAndJoints) {
             vertices.push_back(mesh.indices->index(polygons[i].first + k, 0));
         EXPECT_EQ(vertices, expected[i].vertices) << i;
     }
+}
+
+/// Two joints with a triangle each of materials that are called by what becomes of them.
+Scene scene_with_own_materials() {
+    Scene scene;
+    scene.joints.resize(2);
+    scene.joints[1].parent = 0;
+    for (const auto& [name, joint] :
+         std::initializer_list<std::pair<const char*, std::uint32_t>>{{"own of 1", 1},
+                                                                      {"shared", kNone},
+                                                                      {"used by both", 0},
+                                                                      {"moved by a curve", 1},
+                                                                      {"own of 0", 0},
+                                                                      {"also of 1", 1}}) {
+        Material& material = scene.materials.emplace_back();
+        material.name = name;
+        material.joint = joint;
+    }
+    const std::array<std::vector<std::uint32_t>, 2> used{{{1, 2, 4}, {0, 2, 3, 5}}};
+    for (std::uint32_t joint = 0; joint < 2; ++joint) {
+        Mesh& mesh = scene.meshes.emplace_back();
+        mesh.joint = joint;
+        mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+        for (const std::uint32_t material : used[joint])
+            mesh.submeshes.push_back({Topology::triangles, material, {0, 1, 2}});
+    }
+    Curve& curve = scene.clips.emplace_back().curves.emplace_back();
+    curve.path = "alphaCutoff";
+    curve.kind = CurveTarget::material;
+    curve.target = 3;
+    curve.times = {0.0f};
+    curve.values = {1.0f};
+    return scene;
+}
+
+TEST(BuildChunks, AJointsOwnMaterialStandsInItsJoint) {
+    const Scene scene = scene_with_own_materials();
+    const Built built(scene);
+    EXPECT_EQ(built.document.global_materials, 3u);
+    std::vector<std::string> names;
+    for (const MaterialView& material : built.document.materials) names.emplace_back(material.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"shared", "used by both", "moved by a curve", "own of 0", "own of 1",
+                                               "also of 1"}));
+    EXPECT_EQ(built.document.objects[0].skeleton.first_local_material, (std::vector<std::uint32_t>{0, 1}));
+    EXPECT_EQ(built.document.objects[0].clips[0].curves[0].target, 2u);
+    std::multiset<std::pair<std::uint32_t, std::string>> used;
+    for (const auto& polygons : built.model.joint_submeshes()) used.emplace(polygons.joint, names[polygons.material]);
+    EXPECT_EQ(used, (std::multiset<std::pair<std::uint32_t, std::string>>{{0, "shared"},
+                                                                          {0, "used by both"},
+                                                                          {0, "own of 0"},
+                                                                          {1, "own of 1"},
+                                                                          {1, "used by both"},
+                                                                          {1, "moved by a curve"},
+                                                                          {1, "also of 1"}}));
+    Report report;
+    const auto again = import_bendy(built.bytes, report);
+    ASSERT_TRUE(again);
+    const Buffer settled = build_chunks(*again, "test 1.0", report);
+    EXPECT_EQ(build_chunks(*import_bendy(settled, report), "test 1.0", report), settled);
+    const Buffer compact = build_chunks(scene, "test 1.0", report, {.compact = true});
+    EXPECT_TRUE(validate(compact).empty());
+    const auto from_compact = import_bendy(compact, report);
+    ASSERT_TRUE(from_compact);
+    EXPECT_EQ(build_chunks(*from_compact, "test 1.0", report), settled) << "also beside a table of joints";
 }
 
 TEST(BuildChunks, ClipsSurvive) {

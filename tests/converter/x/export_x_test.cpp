@@ -438,6 +438,34 @@ TEST(ExportX, OwnLightIsSeenThroughTheTexture) {
     }
 }
 
+TEST(ExportX, AJointsOwnMaterialStandsInItsMesh) {
+    Scene scene = small_scene();
+    scene.materials.resize(2);
+    scene.materials[0].name = "Shared";
+    scene.materials[1].name = "Own";
+    scene.materials[1].joint = 0;
+    scene.meshes[0].submeshes.push_back(scene.meshes[0].submeshes[0]);
+    scene.meshes[0].submeshes[0].material = 0;
+    scene.meshes[0].submeshes[1].material = 1;
+    scene.meshes.push_back(scene.meshes[0]);
+    const Trip trip = travel(scene);
+    ASSERT_EQ(trip.after.materials.size(), 2u);
+    EXPECT_EQ(trip.after.materials[0].joint, kNone);
+    EXPECT_EQ(trip.after.materials[1].joint, 0u);
+    for (const Mesh& mesh : trip.after.meshes) EXPECT_EQ(mesh.submeshes.at(1).material, 1u);
+    EXPECT_EQ(losses_of(trip).count("a joint's own material is written as the file's"), 0u);
+
+    Mesh& skin = scene.meshes[1];
+    skin.influences = 1;
+    skin.palette = {{0}, {glm::mat4(1.0f)}};
+    skin.bones = {0, 0, 0};
+    skin.weights = {1.0f, 1.0f, 1.0f};
+    const Trip skinned = travel(scene);
+    EXPECT_EQ(skinned.before.materials.at(1).joint, 0u);
+    EXPECT_EQ(skinned.after.materials.at(1).joint, kNone);
+    EXPECT_EQ(losses_of(skinned).at("a joint's own material is written as the file's"), 1u);
+}
+
 TEST(ExportX, BadFilesAreRefused) {
     Report report;
     const std::vector<std::byte> bytes(32);

@@ -162,6 +162,33 @@ TEST(ImportX, MaterialsByReferenceAndInPlace) {
     EXPECT_EQ(file.scene.images.at(0).uri, "skin%20one.bmp");
 }
 
+const std::string kGreen = "MeshMaterialList { 1; 1; 0; Material Green { 0;1;0;1;; 0; 0;0;0;; 0;0;0;; } } }";
+
+TEST(ImportX, AMaterialInAMeshIsItsJointsOwn) {
+    const Read file =
+        read_good(kHeader + "Frame Hand { " + kSquare + kGreen + " }\nFrame Foot { " + kSquare + kGreen + " }");
+    ASSERT_EQ(file.scene.materials.size(), 2u);
+    EXPECT_EQ(file.scene.materials[0].joint, 0u);
+    EXPECT_EQ(file.scene.materials[1].joint, 1u);
+}
+
+TEST(ImportX, AMaterialThatSeveralJointsUseIsTheFiles) {
+    const std::string again = "MeshMaterialList { 1; 1; 0; { Green } } }";
+    const Read two = read_good(kHeader + "Frame Hand { " + kSquare + kGreen + kSquare + again + " }");
+    EXPECT_EQ(two.scene.materials.at(0).joint, 0u) << "two meshes of one joint";
+    const Read other =
+        read_good(kHeader + "Frame Hand { " + kSquare + kGreen + " }\nFrame Foot { " + kSquare + again + " }");
+    EXPECT_EQ(other.scene.materials.at(0).joint, kNone) << "meshes of two joints";
+    const Read skinned =
+        read_good(kHeader + "Frame Hand { " + kSquare +
+                  "SkinWeights { \"Hand\"; 4; 0,1,2,3; 1,1,1,1; 1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1;; }" + kGreen + " }");
+    ASSERT_EQ(skinned.scene.meshes.at(0).influences, 1u);
+    EXPECT_EQ(skinned.scene.materials.at(0).joint, kNone) << "a skin";
+    const Read top = read_good(kHeader + "Material Red { 1;0;0;1;; 0; 0;0;0;; 0;0;0;; }\nFrame Hand { " + kSquare +
+                               "MeshMaterialList { 1; 1; 0; { Red } } } }");
+    EXPECT_EQ(top.scene.materials.at(0).joint, kNone) << "a material outside of meshes";
+}
+
 /// D3DXMatrixRotationY(90 degrees) as a matrix key, and as what D3DX puts into a file for it: w negated.
 TEST(ImportX, RotationKeysTurnAsMatrixKeysDo) {
     const Read file = read_good(kHeader + R"(AnimTicksPerSecond { 100; }

@@ -235,6 +235,8 @@ struct TextureUse {
 
 struct Material {
     std::string name;
+    std::uint32_t joint =
+        kNone;  ///< whose own material it is, if the polygons of no other joint use it; kNone: the file's
     glm::vec4 base_colour{1.0f};
     float metallic = 1.0f;
     float roughness = 1.0f;

@@ -332,7 +332,7 @@ TextureUse to_use(const TextureUseRecord& record) {
     return {record.texture, record.coords, to_vec<2>(record.offset), record.rotation, to_vec<2>(record.scale)};
 }
 
-void import_materials(const Document& document, Scene& scene) {
+void import_materials(const Document& document, const SkeletonView& skeleton, Scene& scene) {
     for (const MaterialView& view : document.materials) {
         const SurfaceRecord& surface = view.surface;
         Material& material = scene.materials.emplace_back();
@@ -355,6 +355,12 @@ void import_materials(const Document& document, Scene& scene) {
         material.extensions = view.extensions;
         material.extras = view.extras;
         material.more = view.more;
+    }
+    // The first object's own materials come behind those of HEAD, by joint.
+    std::uint32_t joint = 0;
+    for (std::uint32_t own = 0; own < skeleton.local_materials.size(); ++own) {
+        while (joint + 1 < skeleton.joints.size() && skeleton.first_local_material[joint + 1] <= own) ++joint;
+        scene.materials[document.global_materials + own].joint = joint;
     }
 }
 
@@ -411,10 +417,6 @@ Scene import(Bytes bytes, Report& report, MeshParts parts) {
         const ObjectView& left_out = document.objects[other];
         report.warn("object left out, only the first is kept", chunk_path(bytes, (*tree)[left_out.chunk].offset));
     }
-    if (document.materials.size() > document.global_materials) {
-        report.warn("a joint's own material is written as the file's", {},
-                    document.materials.size() - document.global_materials);
-    }
     warn_of_left_out(*tree, report);
 
     Scene scene;
@@ -427,7 +429,7 @@ Scene import(Bytes bytes, Report& report, MeshParts parts) {
     import_joints(object.skeleton, scene);
     import_chains(object, scene);
     import_textures(*tree, document, scene, report);
-    import_materials(document, scene);
+    import_materials(document, object.skeleton, scene);
     import_stored_meshes(*tree, object, parts, budget, scene, report);
     if (object.collapse) import_collapse(*object.collapse, scene);
     ClipImporter clips(*tree, object.skeleton, budget, report);

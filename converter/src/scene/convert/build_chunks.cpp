@@ -126,15 +126,48 @@ void put_pivot(LeafWriter& out, const Joint& joint, std::span<const ChainWeightR
     out.end();
 }
 
+/// Where the materials are written, and by which numbers submeshes and curves refer to them.
+struct MaterialPlaces {
+    std::vector<std::uint32_t> of_file;                ///< the materials of HEAD
+    std::vector<std::vector<std::uint32_t>> of_joint;  ///< each joint's own
+    std::vector<std::uint32_t> number;                 ///< in HEAD or, with kLocalMaterial, in the joint
+};
+
+/// A joint's own material stays so if no other joint's polygons use it, nor a curve, which knows those of HEAD only.
+MaterialPlaces place_materials(const Scene& scene, std::span<const AssignedPolygons> meshes) {
+    std::vector<std::uint32_t> owner;
+    for (const Material& material : scene.materials) owner.push_back(material.joint);
+    for (const AssignedPolygons& mesh : meshes) {
+        for (const AssignedSubmesh& range : mesh.ranges) {
+            if (range.material != kNone && owner[range.material] != range.joint) owner[range.material] = kNone;
+        }
+    }
+    for (const Clip& clip : scene.clips) {
+        for (const Curve& curve : clip.curves) {
+            if (curve.kind == CurveTarget::material) owner[curve.target] = kNone;
+        }
+    }
+    MaterialPlaces places;
+    places.of_joint.resize(scene.joints.size());
+    for (std::uint32_t material = 0; material < owner.size(); ++material) {
+        const bool is_own = owner[material] != kNone;
+        std::vector<std::uint32_t>& list = is_own ? places.of_joint[owner[material]] : places.of_file;
+        places.number.push_back(static_cast<std::uint32_t>(list.size()) | (is_own ? kLocalMaterial : 0));
+        list.push_back(material);
+    }
+    return places;
+}
+
 using SubmeshesByJoint = std::vector<std::vector<SubmeshRecord>>;
 
-SubmeshesByJoint sort_by_joint(const Scene& scene, std::span<const AssignedPolygons> meshes) {
+SubmeshesByJoint sort_by_joint(const Scene& scene, std::span<const AssignedPolygons> meshes,
+                               const MaterialPlaces& materials) {
     SubmeshesByJoint by_joint(scene.joints.size());
     for (std::uint32_t mesh = 0; mesh < meshes.size(); ++mesh) {
         for (const AssignedSubmesh& range : meshes[mesh].ranges) {
             SubmeshRecord record;
             record.mesh = mesh;
-            record.material = range.material;
+            record.material = range.material == kNone ? kNone : materials.number[range.material];
             record.first = range.first;
             record.count = range.count;
             record.topology = static_cast<std::uint8_t>(range.topology);
@@ -165,7 +198,8 @@ void put_joint_table(LeafWriter& out, const Scene& scene, const SubmeshesByJoint
     if (is_named) out.text_leaf(FourCC("JNAM"), names);
 }
 
-void put_joints(LeafWriter& out, const Scene& scene, const SubmeshesByJoint& submeshes) {
+void put_joints(LeafWriter& out, const Scene& scene, const SubmeshesByJoint& submeshes,
+                const MaterialPlaces& materials) {
     // A NUL inside a name would end it early in the table.
     const bool has_table =
         out.is_compact() && std::none_of(scene.joints.begin(), scene.joints.end(),
@@ -183,6 +217,7 @@ void put_joints(LeafWriter& out, const Scene& scene, const SubmeshesByJoint& sub
         open.push_back(number);
         if (!has_table) put_text(out, FourCC("NAME"), joint.name);
         put_pivot(out, joint, chain_weights[number], has_table);
+        for (const std::uint32_t own : materials.of_joint[number]) put_material(out, scene.materials[own]);
         if (!has_table) {
             for (const SubmeshRecord& record : submeshes[number]) out.leaf(FourCC("POLY"), bytes_of(record));
         }
@@ -251,15 +286,17 @@ void put_plays(LeafWriter& out, const Clip& clip) {
 }
 
 /// Writes a clip's curves, one CURV each; compact files pack them where that is smaller.
-void put_curves(LeafWriter& out, const Clip& clip) {
+void put_curves(LeafWriter& out, const Clip& clip, const MaterialPlaces& materials) {
     constexpr LeafShape kFloats{0, 0, sizeof(float), false};
     for (const Curve& curve : clip.curves) {
         const std::optional<PackedCurve> packed = out.is_compact() ? pack_curve(curve) : std::nullopt;
-        out.leaf(FourCC("CURV"), write_curve(packed ? packed->view(curve) : view_of(curve)), kFloats);
+        CurveView written = packed ? packed->view(curve) : view_of(curve);
+        if (curve.kind == CurveTarget::material) written.target = materials.number[curve.target];
+        out.leaf(FourCC("CURV"), write_curve(written), kFloats);
     }
 }
 
-void put_clip(LeafWriter& out, const Clip& clip) {
+void put_clip(LeafWriter& out, const Clip& clip, const MaterialPlaces& materials) {
     ClipRecord info;
     info.loop = clip.loop ? 1 : 0;
     const ClipSpan span = span_of(clip);
@@ -294,7 +331,7 @@ void put_clip(LeafWriter& out, const Clip& clip) {
         out.leaf(FourCC("KEYV"), values.bytes(), kFloats);
     }
     put_markers(out, clip, info);
-    put_curves(out, clip);
+    put_curves(out, clip, materials);
     out.end();
 }
 
@@ -393,12 +430,13 @@ std::vector<std::byte> build(const Scene& scene, Scene* spent, std::string_view 
     put_text(out, FourCC("EXTN"), scene.extensions);
     put_text(out, FourCC("MORE"), scene.source_more);
     if (!embeds) put_textures(out, scene);
-    for (const Material& material : scene.materials) put_material(out, material);
+    const MaterialPlaces materials = place_materials(scene, polygons);
+    for (const std::uint32_t material : materials.of_file) put_material(out, scene.materials[material]);
     out.begin(FourCC("OBJE"));
     put_text(out, FourCC("NAME"), scene.name);
     put_text(out, FourCC("EXTR"), scene.extras);
     put_text(out, FourCC("MORE"), scene.more);
-    put_joints(out, scene, sort_by_joint(scene, polygons));
+    put_joints(out, scene, sort_by_joint(scene, polygons, materials), materials);
     if (!scene.roles.empty()) out.leaf(FourCC("ROLE"), std::as_bytes(std::span(scene.roles)));
     for (const Chain& chain : scene.chains) put_chain(out, chain);
     const CompactMesh exact;
@@ -409,7 +447,7 @@ std::vector<std::byte> build(const Scene& scene, Scene* spent, std::string_view 
         if (spent != nullptr) release_streams(spent->meshes[mesh]);
     }
     put_collapse(out, scene);
-    for (const Clip& clip : scene.clips) put_clip(out, clip);
+    for (const Clip& clip : scene.clips) put_clip(out, clip, materials);
     out.end();
     if (embeds) put_textures(out, scene);
     out.end();

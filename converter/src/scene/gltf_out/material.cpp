@@ -118,8 +118,10 @@ public:
     void run() {
         for (std::size_t i = 0; i < scene_.images.size(); ++i) root_["images"].push_back(write_image(i));
         for (std::size_t i = 0; i < scene_.textures.size(); ++i) root_["textures"].push_back(write_texture(i));
-        for (std::size_t i = 0; i < scene_.materials.size(); ++i)
+        for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
             root_["materials"].push_back(write_material(scene_.materials[i], numbers_, at("materials", i), report_));
+            if (scene_.materials[i].joint != kNone) report_.warn(std::string(kOwnMaterialShared), at("materials", i));
+        }
     }
 
 private:

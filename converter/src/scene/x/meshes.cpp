@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -270,11 +271,51 @@ private:
     std::unordered_map<std::string_view, std::uint32_t> material_of_;
 };
 
+/// A material that stands in a mesh belongs to the joint that moves this mesh, if it moves all meshes that use it.
+void give_joints_their_materials(const XFile& file, Scene& scene) {
+    std::vector<std::optional<std::uint32_t>> users(
+        scene.materials.size());  // kNone: several joints, or a skinned mesh
+    for (const converter::Mesh& mesh : scene.meshes) {
+        const std::uint32_t joint = mesh.influences == 0 ? mesh.joint : kNone;
+        for (const Submesh& submesh : mesh.submeshes) {
+            if (submesh.material == kNone) continue;
+            std::optional<std::uint32_t>& user = users[submesh.material];
+            user = user.value_or(joint) == joint ? joint : kNone;
+        }
+    }
+    for (std::size_t i = 0; i < users.size(); ++i) {
+        if (file.materials[i].is_own) scene.materials[i].joint = users[i].value_or(kNone);
+    }
+}
+
+/// Puts the file's materials first, then each joint's own: the order of a bendy file.
+void sort_materials(Scene& scene) {
+    std::vector<std::uint32_t> order = count_up(scene.materials.size());
+    // kNone + 1 is 0.
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return scene.materials[a].joint + 1 < scene.materials[b].joint + 1;
+    });
+    std::vector<std::uint32_t> number(order.size());
+    std::vector<converter::Material> sorted;
+    for (const std::uint32_t material : order) {
+        number[material] = static_cast<std::uint32_t>(sorted.size());
+        sorted.push_back(std::move(scene.materials[material]));
+    }
+    scene.materials = std::move(sorted);
+    for (converter::Mesh& mesh : scene.meshes) {
+        for (Submesh& submesh : mesh.submeshes) {
+            if (submesh.material != kNone) submesh.material = number[submesh.material];
+        }
+    }
+}
+
 }  // namespace
 
 void import_meshes(const XFile& file, const FrameIndex& frames, Budget& budget, Scene& scene, Report& report) {
     MeshImporter importer(file, frames, budget, scene, report);
     for (const Mesh& mesh : file.meshes) importer.import(mesh);
+    give_joints_their_materials(file, scene);
+    sort_materials(scene);
 }
 
 }  // namespace bendy::converter::x

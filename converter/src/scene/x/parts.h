@@ -53,6 +53,7 @@ struct Material : Named {
     glm::vec3 specular{0.0f};
     glm::vec3 emissive{0.0f};
     std::string texture;  ///< a file name, or empty
+    bool is_own = false;  ///< stands in a mesh
 };
 
 struct MaterialSlot {

@@ -292,6 +292,7 @@ private:
         } else if (type == "Material") {
             slot.material = static_cast<std::uint32_t>(materials_.size());
             materials_.push_back(read_material(in_));
+            materials_.back().is_own = true;
         } else {
             return in_.skip_unknown(type);
         }

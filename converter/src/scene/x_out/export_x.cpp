@@ -178,7 +178,7 @@ std::array<double, 16> matrix_of(const Transform& rest) {
 
 /// Writes every joint as a Frame inside its parent's, with its constraints and the meshes that it carries; then the
 /// meshes without a joint.
-void write_frames(const Scene& scene, const Names& names, Text& text, Report& report) {
+void write_frames(const Scene& scene, const Names& names, MaterialExporter& materials, Text& text, Report& report) {
     std::vector<std::vector<std::uint32_t>> meshes_of(scene.joints.size());
     std::vector<std::uint32_t> free_meshes;
     for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
@@ -196,12 +196,12 @@ void write_frames(const Scene& scene, const Names& names, Text& text, Report& re
         text.close();
         write_name(names.joints[number], joint.name, text);
         write_constraints(joint, text);
-        for (const std::uint32_t mesh : meshes_of[number]) write_mesh(scene, mesh, names, text, report);
+        for (const std::uint32_t mesh : meshes_of[number]) write_mesh(scene, mesh, names, materials, text, report);
         if (!joint.extras.empty() || !joint.extensions.empty() || !joint.more.empty())
             report.warn("extras or extensions of a joint left out: X-files have no place for it", at("joints", number));
     }
     for (; !open.empty(); open.pop_back()) text.close();
-    for (const std::uint32_t mesh : free_meshes) write_mesh(scene, mesh, names, text, report);
+    for (const std::uint32_t mesh : free_meshes) write_mesh(scene, mesh, names, materials, text, report);
 }
 
 XAsset write(const Scene& scene, const std::string& image_stem, Report& report) {
@@ -211,8 +211,9 @@ XAsset write(const Scene& scene, const std::string& image_stem, Report& report) 
     text.line("// bendy " BENDY_VERSION);
     write_templates(text);
     const Names names(scene);
-    write_materials(scene, names, image_stem, text, asset.images, report);
-    write_frames(scene, names, text, report);
+    MaterialExporter materials(scene, names, image_stem, text, asset.images, report);
+    materials.write_shared();
+    write_frames(scene, names, materials, text, report);
     write_chains(scene, names, text);
     write_clips(scene, names, text, report);
     if (!scene.levels.empty()) report.warn("levels of detail left out: X-files have no place for them");

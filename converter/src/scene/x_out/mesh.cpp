@@ -16,11 +16,13 @@ namespace {
 
 class MeshExporter {
 public:
-    MeshExporter(const Scene& scene, std::uint32_t number, const Names& names, Text& text, Report& report)
+    MeshExporter(const Scene& scene, std::uint32_t number, const Names& names, MaterialExporter& materials, Text& text,
+                 Report& report)
         : mesh_(scene.meshes[number]),
           number_(number),
           place_(at("meshes", number)),
           names_(names),
+          materials_(materials),
           text_(text),
           report_(report) {
         for (const Submesh& submesh : mesh_.submeshes) {
@@ -147,7 +149,7 @@ private:
         }
         for (const std::uint32_t material : slots) {
             if (material != kNone) {
-                text_.line("{ " + names_.materials[material] + " }");
+                materials_.write_entry(material);
                 continue;
             }
             report_.warn("polygons without a material get a white one", place_);
@@ -266,6 +268,7 @@ private:
     std::uint32_t number_;
     std::string place_;
     const Names& names_;
+    MaterialExporter& materials_;
     Text& text_;
     Report& report_;
     std::uint64_t triangles_ = 0;
@@ -273,8 +276,9 @@ private:
 
 }  // namespace
 
-void write_mesh(const Scene& scene, std::uint32_t number, const Names& names, Text& text, Report& report) {
-    MeshExporter(scene, number, names, text, report).write();
+void write_mesh(const Scene& scene, std::uint32_t number, const Names& names, MaterialExporter& materials, Text& text,
+                Report& report) {
+    MeshExporter(scene, number, names, materials, text, report).write();
 }
 
 }  // namespace bendy::converter::x_out

@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -90,12 +91,38 @@ void write_name(std::string_view identifier, std::string_view name, Text& text);
 
 // The stages of an export.
 
-/// Writes a mesh, inside the frame that carries it.
-void write_mesh(const Scene& scene, std::uint32_t number, const Names& names, Text& text, Report& report);
-
-/// Writes every material at the file's top. Embedded images become files beside it.
-void write_materials(const Scene& scene, const Names& names, const std::string& image_stem, Text& text,
+/// Writes materials. Embedded images become files beside the file.
+class MaterialExporter {
+public:
+    MaterialExporter(const Scene& scene, const Names& names, const std::string& image_stem, Text& text,
                      std::vector<XAsset::File>& images, Report& report);
+
+    /// Writes the materials that do not stand in meshes.
+    void write_shared();
+    /// Writes an entry of a mesh's list: a joint's own material stands in the first mesh that uses it.
+    void write_entry(std::uint32_t material);
+
+private:
+    void write(std::uint32_t number);
+    template <class Vector>
+    void line(const Vector& vector);
+    void write_texture(std::uint32_t number, const std::string& place);
+    std::string file_of(std::uint32_t image);
+    void report_losses(const Material& material, const std::string& place);
+
+    const Scene& scene_;
+    const Names& names_;
+    const std::string& image_stem_;
+    Text& text_;
+    std::vector<XAsset::File>& images_;
+    Report& report_;
+    std::unordered_set<std::uint32_t> is_written_;  ///< images already written
+    std::vector<bool> is_due_;                      ///< by material: stands in a mesh that is not written yet
+};
+
+/// Writes a mesh, inside the frame that carries it.
+void write_mesh(const Scene& scene, std::uint32_t number, const Names& names, MaterialExporter& materials, Text& text,
+                Report& report);
 
 /// Writes AnimTicksPerSecond, an AnimationSet for every clip, and the clips' names if they differ from the identifiers.
 void write_clips(const Scene& scene, const Names& names, Text& text, Report& report);
