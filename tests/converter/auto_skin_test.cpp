@@ -158,6 +158,8 @@ std::vector<std::string> bind(Scene& scene, const std::string& skeleton = {}) {
 }
 
 using Lines = std::vector<std::string>;
+const std::string kNoSkeleton =
+    ": no vertices bound: the file has no skeleton; --skeleton takes a joint and all below it";
 
 TEST(AutoSkin, EveryVertexGoesToTheNearestBone) {
     for (const std::uint32_t seed : {1u, 2u}) {
@@ -271,8 +273,50 @@ TEST(AutoSkin, WithoutASkeletonItWarns) {
     mesh.joint = 0;
     mesh.positions.resize(3);
     scene.meshes = {mesh};
-    EXPECT_EQ(bind(scene), Lines{": no vertices bound: the file has no skeleton"});
+    EXPECT_EQ(bind(scene), Lines{kNoSkeleton});
     EXPECT_EQ(scene.meshes[0].influences, 0u);
+}
+
+/// A box of a width, from one height to another above its joint.
+Mesh box_on(std::uint32_t joint, float low, float high, float width) {
+    Mesh mesh;
+    mesh.joint = joint;
+    for (const float y : {low, 0.5f * (low + high), high}) {
+        for (const float x : {-width, width})
+            mesh.positions.insert(mesh.positions.end(), {{x, y, -width}, {x, y, width}});
+    }
+    return mesh;
+}
+
+/// A body, and three parts a metre apart, as in the paper: each carries the next.
+Scene body_with_parts(float width) {
+    Scene scene =
+        make_scene({{"Body"}, {"upper"}, {"lower", 1, {0, 1, 0}}, {"hand", 2, {0, 1, 0}}, {"tip", 3, {0, 1, 0}}});
+    scene.meshes.push_back(box_on(0, 0.0f, 3.0f, width));
+    for (std::uint32_t joint = 1; joint <= 3; ++joint) scene.meshes.push_back(box_on(joint, 0.05f, 0.95f, 0.1f));
+    return scene;
+}
+
+TEST(AutoSkin, PartMeshesInsideTheSkinAreItsBones) {
+    Scene scene = body_with_parts(0.3f);
+    EXPECT_EQ(bind(scene),
+              (Lines{": the skin is bound to the 4 joints whose part meshes lie inside it; --skeleton takes others",
+                     "skin of mesh #0: 12 vertices bound to 3 joints"}));
+    EXPECT_EQ(joints_of(scene.meshes[0]), (std::vector<std::uint32_t>{1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3}));
+    for (std::size_t part = 1; part <= 3; ++part) EXPECT_EQ(scene.meshes[part].influences, 0u);
+}
+
+TEST(AutoSkin, PartsThatTheOtherMeshesDoNotEncloseAreNoBones) {
+    Scene scene = body_with_parts(0.05f);
+    scene.joints.pop_back();
+    EXPECT_EQ(bind(scene), Lines{kNoSkeleton});
+    EXPECT_EQ(scene.meshes[0].influences, 0u);
+    scene = make_scene({{"Body"}, {"alone"}});  // one part is no hierarchy
+    scene.meshes = {box_on(0, 0.0f, 3.0f, 0.3f), box_on(1, 0.05f, 0.95f, 0.1f)};
+    EXPECT_EQ(bind(scene), Lines{kNoSkeleton});
+    scene = body_with_parts(0.3f);  // a proper skeleton goes first
+    scene.joints.push_back(make_scene({{"Hips"}}).joints[0]);
+    EXPECT_EQ(bind(scene).front(), "skin of mesh #0: 12 vertices bound to 2 joints");
 }
 
 TEST(AutoSkin, JointsWithoutVolumeCarryNothing) {
@@ -282,7 +326,7 @@ TEST(AutoSkin, JointsWithoutVolumeCarryNothing) {
     EXPECT_EQ(joints_of(scene.meshes[0]), (std::vector<std::uint32_t>{0, 1}));
     scene = row_with_mesh({{0, 0.5f, 0}});
     scene.joints[0].rest.scale = glm::vec3(0.0f);
-    EXPECT_EQ(bind(scene), Lines{": no vertices bound: the file has no skeleton"});
+    EXPECT_EQ(bind(scene), Lines{kNoSkeleton});
 }
 
 TEST(AutoSkin, TooMuchWorkIsRefused) {

@@ -3,11 +3,13 @@
 #include "rigging/rig/joint_key.h"
 #include "scene/evaluate.h"
 #include "scene/failure.h"
+#include "scene/space.h"
 
 #include <bendy/format/names.h>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +59,43 @@ Flags joints_without_meshes(const Scene& scene) {
     return found;
 }
 
+/// The vertices in model space, at rest.
+std::vector<glm::dvec3> vertices_at_rest(const Scene& scene, std::size_t mesh, const EvaluatedPose& rest) {
+    return evaluate_vertices(scene.meshes[mesh], rest.morph_weights[mesh], rest.joints);
+}
+
+/// The paper's hierarchy of part meshes: the topmost joints that carry a mesh and have one below them, with all that is
+/// below. None, unless the other meshes, the skin, enclose these parts.
+Flags joints_of_parts(const Scene& scene, const EvaluatedPose& rest) {
+    const auto count = static_cast<std::uint32_t>(scene.joints.size());
+    Flags has_mesh(count);
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.joint != kNone) has_mesh[mesh.joint] = true;
+    }
+    Flags has_mesh_below(count);
+    for (std::uint32_t joint = count; joint-- > 0;) {
+        const std::uint32_t parent = scene.joints[joint].parent;
+        if (parent != kNone && (has_mesh[joint] || has_mesh_below[joint])) has_mesh_below[parent] = true;
+    }
+    Flags found(count);
+    for (std::uint32_t joint = 0; joint < count; ++joint) {
+        const std::uint32_t parent = scene.joints[joint].parent;
+        found[joint] = (parent != kNone && found[parent]) || (has_mesh[joint] && has_mesh_below[joint]);
+    }
+    Box<glm::dvec3> parts;
+    Box<glm::dvec3> skin;
+    for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+        const std::uint32_t joint = scene.meshes[mesh].joint;
+        Box<glm::dvec3>& box = joint != kNone && found[joint] ? parts : skin;
+        for (const glm::dvec3& vertex : vertices_at_rest(scene, mesh, rest)) box.add(vertex);
+    }
+    if (parts.is_empty() || skin.is_empty()) return Flags(count);
+    const glm::dvec3 slack(0.01 * glm::length(skin.high - skin.low));
+    const bool is_inside = glm::all(glm::lessThanEqual(skin.low - slack, parts.low)) &&
+                           glm::all(glm::lessThanEqual(parts.high, skin.high + slack));
+    return is_inside ? found : Flags(count);
+}
+
 /// The joint that the text names, and its descendants.
 Result<Flags, KeyProblem> joints_below(const Scene& scene, const std::string& top) {
     std::vector<std::string_view> names;
@@ -77,6 +116,10 @@ bool has_any(const Flags& flags) {
 bool can_carry(const glm::dmat4& matrix) {
     const double volume = glm::determinant(glm::dmat3(matrix));
     return std::isfinite(1.0 / volume);
+}
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+    return std::to_string(count) + ' ' + (count == 1 ? one : many);
 }
 
 /// The bones of a skeleton, by joint.
@@ -152,8 +195,17 @@ bool is_finite(const Palette& palette) {
     });
 }
 
-std::string counted(std::size_t count, const char* one, const char* many) {
-    return std::to_string(count) + ' ' + (count == 1 ? one : many);
+/// Joints without meshes; or part meshes, if only these have such joints below them.
+Flags skeleton_without_skins(const Scene& scene, const EvaluatedPose& rest, Report& report) {
+    const Flags bare = joints_without_meshes(scene);
+    const Flags parts = joints_of_parts(scene, rest);
+    const auto bones = static_cast<std::size_t>(std::count(parts.begin(), parts.end(), true));
+    const bool are_parts = std::equal(bare.begin(), bare.end(), parts.begin(),
+                                      [](bool is_bare, bool is_part) { return !is_bare || is_part; });
+    if (bones == 0 || !are_parts) return bare;
+    report.warn("the skin is bound to the " + counted(bones, "joint", "joints") +
+                " whose part meshes lie inside it; --skeleton takes others");
+    return parts;
 }
 
 /// The meshes that are to be bound.
@@ -175,21 +227,22 @@ std::vector<std::size_t> find_free_meshes(const Scene& scene, const Flags& skele
 }  // namespace
 
 Result<void, ImportError> auto_skin(Scene& scene, const std::string& skeleton, Report& report) {
+    EvaluatedPose pose;
+    evaluate_rest(scene, pose);
     Flags joints = joints_of_skins(scene);
     if (!skeleton.empty()) {
         auto below = joints_below(scene, skeleton);
         if (!below) return ImportError{"skeleton", below.error().message};
         joints = *std::move(below);
     } else if (!has_any(joints)) {
-        joints = joints_without_meshes(scene);
+        joints = skeleton_without_skins(scene, pose, report);
     }
-    EvaluatedPose pose;
-    evaluate_rest(scene, pose);
     const std::vector<Bone> bones = find_bones(scene, joints, pose.joints);
     const std::vector<std::size_t> meshes = find_free_meshes(scene, joints);
     if (bones.empty() || meshes.empty()) {
-        report.warn(bones.empty() ? "no vertices bound: the file has no skeleton"
-                                  : "no vertices bound: every mesh has a skin or hangs on a joint of the skeleton");
+        report.warn(bones.empty()
+                        ? "no vertices bound: the file has no skeleton; --skeleton takes a joint and all below it"
+                        : "no vertices bound: every mesh has a skin or hangs on a joint of the skeleton");
         return {};
     }
     constexpr std::uint64_t kMostWork = std::uint64_t{1} << 33;
@@ -203,8 +256,7 @@ Result<void, ImportError> auto_skin(Scene& scene, const std::string& skeleton, R
     for (const std::size_t number : meshes) {
         Mesh& mesh = scene.meshes[number];
         const glm::dmat4 mesh_to_model = mesh.joint == kNone ? glm::dmat4(1.0) : pose.joints[mesh.joint];
-        Binding binding = bind_vertices(evaluate_vertices(mesh, pose.morph_weights[number], pose.joints), bones,
-                                        mesh_to_model, pose.joints);
+        Binding binding = bind_vertices(vertices_at_rest(scene, number, pose), bones, mesh_to_model, pose.joints);
         const std::string name = mesh.name.empty() ? '#' + std::to_string(number) : quote(mesh.name);
         if (!is_finite(binding.palette)) {
             report.warn("no vertices of mesh " + name + " bound: its joints are too small to hold them");

@@ -14,8 +14,9 @@ namespace bendy::converter {
 ///
 /// A joint's bones are the lines to its children in the skeleton; a joint without children continues its parent's bone
 /// at half the length. The skeleton is `skeleton` with all its descendants; if that is empty, the joints of the file's
-/// skins; if there are none, every joint without a mesh on it or on a descendant. Only meshes without a skin are bound,
-/// and of these only the ones that no joint of the skeleton already carries.
+/// skins; if there are none, every joint without a mesh on it or on a descendant; if there are none of these either, a
+/// hierarchy of part meshes that the other meshes enclose (the paper's [5]), which is said. Only meshes without a skin
+/// are bound, and of these only the ones that no joint of the skeleton already carries.
 ///
 /// \param skeleton  a joint's name, or `#` and its number; may be empty
 /// Notes in `report` how many vertices of each mesh went to how many joints; warns if there is nothing to bind. Errors:
