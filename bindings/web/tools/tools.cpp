@@ -141,12 +141,13 @@ Json run_convert(const Json& request, Made& made) {
     tools::visit_options(arguments, [&](const tools::ConvertOption& option, auto& value) {
         const auto given = request.find(in_javascript(option.flag()));
         if (given == request.end()) return;
-        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Path>) {
-            value = given->get<std::string>();
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, Path>) {
+            value = given->text();
         } else {
-            given->get_to(value);
+            value = given->get<Value>();
         }
-        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, tools::option::word>) {
+        if constexpr (std::is_same_v<Value, tools::option::word>) {
             if (const std::string why = option.why_not(value); !why.empty()) refuse(why);
         }
     });

@@ -207,8 +207,6 @@ std::optional<std::size_t> TextureLoader::find_image(const ImageView& view, std:
     if (view.bytes.empty()) {
         const auto path = folders_.find(view.uri);
         problem = "its image is not in this file";
-        if (!path && path.error() == LinkProblem::control)
-            problem += ", and its link, which holds a control character, is not followed";
         if (!path && path.error() == LinkProblem::outside)
             problem += ", and is not read from outside its folder: --root FOLDER allows a folder that it is in";
         if (!path) return std::nullopt;
