@@ -858,7 +858,7 @@ typedef struct bendy_reach_options {
     uint32_t has_pole;           /* 1: use `pole`; 0: use the chain's own pole */
     float pole[3];               /* two-bone, aim: a point in model space to bend towards */
     uint32_t carry_target; /* 1: afterwards, the joint that the chain follows is moved to the tip with its descendants,
-                              unless it is in, above or below the chain: a foot that is no child of its leg stays at
+                              unless it is in, above or below the chain: a foot that is not a child of its leg stays at
                               the leg's end */
 } bendy_reach_options;
 
