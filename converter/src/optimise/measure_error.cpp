@@ -27,7 +27,7 @@
 namespace bendy::converter {
 namespace {
 
-constexpr double kMostSamples = 100'800.0;  // of one clip: 7 minutes
+constexpr double kMostSamplesOfClip = 100'800.0;  // of one clip: 7 minutes
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// NaN counts as infinite.
@@ -415,7 +415,7 @@ std::vector<double> sample_times(const Clip& exact, const Clip& decoded, std::si
     if (times.empty() || limit == 0) return times;
     const double start = times.front();
     const double length = times.back() - start;
-    const double most = std::min(kMostSamples, static_cast<double>(limit));
+    const double most = std::min(kMostSamplesOfClip, static_cast<double>(limit));
     const double steps = std::min(std::ceil(length * kSamplesPerSecond), most);
     const double step = steps < most ? 1.0 / kSamplesPerSecond : length / steps;
     for (unsigned k = 1; k < steps; ++k) times.push_back(start + k * step);
@@ -424,9 +424,9 @@ std::vector<double> sample_times(const Clip& exact, const Clip& decoded, std::si
     return times;
 }
 
-class Comparison {
+class Measurement {
 public:
-    Comparison(const Scene& exact, const Scene& decoded, const MeasureOptions& options)
+    Measurement(const Scene& exact, const Scene& decoded, const MeasureOptions& options)
         : exact_(exact), decoded_(decoded), shell_(options.shell), limit_(options.limit) {
         const VertexMaps maps = options.vertex_maps;
         auto plans = std::make_shared<std::vector<PairPlan>>();
@@ -579,10 +579,10 @@ std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decode
         if (exact.meshes[mesh].targets.size() != decoded.meshes[mesh].targets.size()) return impossible();
     }
     const std::size_t threads = std::clamp<std::size_t>(options.threads, 1, most_threads(exact, clips.size()));
-    Comparison comparison(exact, decoded, options);
-    if (!comparison.is_possible()) return impossible();
-    comparison.measure_rest();
-    errors.back() = comparison.worst();
+    Measurement measurement(exact, decoded, options);
+    if (!measurement.is_possible()) return impossible();
+    measurement.measure_rest();
+    errors.back() = measurement.worst();
 
     const WorkLimits limits = find_limits(exact);
     if (!limits.can_be_measured) return impossible();
@@ -594,14 +594,14 @@ std::vector<MeasuredError> measure_clips(const Scene& exact, const Scene& decode
         total += times.back().size();
     }
     SharedProgress progress(options.progress, static_cast<double>(total));
-    std::vector<Comparison> workers;
+    std::vector<Measurement> workers;
     workers.reserve(threads);  // large: one for each thread, and no more
-    workers.push_back(std::move(comparison));
+    workers.push_back(std::move(measurement));
     while (workers.size() < threads) workers.push_back(workers.front());
     std::mutex guard;
     double known = std::min(std::max(options.known, errors.back().metres), options.limit);
     in_parallel(threads, clips.size(), [&](std::size_t k, std::size_t worker) {
-        Comparison& own = workers[worker];
+        Measurement& own = workers[worker];
         {
             const std::lock_guard lock(guard);
             own.start_anew(clips[k], known);

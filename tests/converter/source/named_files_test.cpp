@@ -15,7 +15,7 @@ class Named : public testing::Test {
 protected:
     Named() { std::ofstream(folder_.path() / "ten") << "0123456789"; }
 
-    test::TemporaryFolder folder_;
+    bendy::test::TemporaryFolder folder_;
     Budget budget_;
     Report report_;
     NamedFiles files_{ReadableFolders::of(folder_.path() / "source"), budget_, report_};

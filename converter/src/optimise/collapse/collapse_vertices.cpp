@@ -415,7 +415,7 @@ Sequence find_sequence(const Mesh& mesh, std::span<const Shape> shapes, Surface 
 }
 
 constexpr std::size_t kMostLevels = 32;
-constexpr double kStep = 0.9;  // share of the collapsible vertices that the next level keeps
+constexpr double kShareKept = 0.9;  // of the collapsible vertices, by the next level
 
 struct Move {
     float error;
@@ -435,7 +435,7 @@ std::vector<LodLevel> make_levels(std::span<const Mesh> meshes, std::span<const 
     LodLevel level;
     for (const Mesh& mesh : meshes) level.alive.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
     std::vector<LodLevel> levels{level};
-    double next = kStep * static_cast<double>(moves.size());
+    double next = kShareKept * static_cast<double>(moves.size());
     for (std::size_t done = 0; done < moves.size();) {
         level.error = moves[done].error;
         --level.alive[moves[done].mesh];
@@ -443,7 +443,7 @@ std::vector<LodLevel> make_levels(std::span<const Mesh> meshes, std::span<const 
         const bool is_last = left == 0;
         if (!is_last && moves[done].is_joined) continue;
         if (!is_last && (static_cast<double>(left) > next || levels.size() + 1 >= kMostLevels)) continue;
-        next = kStep * static_cast<double>(left);
+        next = kShareKept * static_cast<double>(left);
         levels.push_back(level);
     }
     return levels;

@@ -17,7 +17,7 @@ namespace bendy::converter {
 namespace {
 
 constexpr std::size_t kMostPoses = 8;
-constexpr std::size_t kMostSamples = 120;  // poses to choose from
+constexpr std::size_t kMostCandidates = 120;  // poses to choose from
 constexpr std::size_t kSamplesOfClip = 12;
 constexpr int kMadeUpPoses = 3;
 constexpr std::size_t kMostTargetGroups = 6;
@@ -105,7 +105,7 @@ std::vector<std::vector<double>> group_targets(const Mesh& mesh, std::size_t mos
 }  // namespace
 
 std::vector<std::vector<Shape>> find_shapes(const Scene& scene) {
-    std::vector<EvaluatedPose> candidates = sample_poses(scene, kMostSamples, kSamplesOfClip);
+    std::vector<EvaluatedPose> candidates = sample_poses(scene, kMostCandidates, kSamplesOfClip);
     const EvaluatedPose rest = candidates.front();
     std::vector<EvaluatedPose> poses = choose_poses(rest, std::move(candidates));
     if (poses.empty()) poses = make_up_poses(scene, rest);
