@@ -157,6 +157,13 @@ class Inspect(Case):
         self.assertRegex(result.stdout.decode(), r"\n +\d+ +\d+ +NAME  FAULT: the checksum does not match")
         self.assertRegex(result.stderr.decode(), r"^bendy: error: bad\.bendy: .*HEAD/OBJE/SKIN/NAME")
 
+    def test_an_object_inside_of_an_unknown_chunk_is_none(self):
+        head = Chunk.read((SOURCE / "spec/examples/smallest.bendy").read_bytes())
+        head.children.append(Chunk("WXYZ", children=[Chunk("OBJE", children=[])]))
+        (self.folder / "none.bendy").write_bytes(head.write())
+        self.assertEqual(self.done("validate", "none.bendy"), b"")
+        self.assertIn(b", no object\n", self.done("inspect", "none.bendy"))
+
     def test_a_file_without_structure_fails_with_its_place(self):
         data = self.convert("tentacle").read_bytes()
         (self.folder / "cut.bendy").write_bytes(data[:1000])

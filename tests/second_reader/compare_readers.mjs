@@ -67,9 +67,7 @@ async function compare_all_fields(comparison, files, read) {
     const has_text_form = /^ +dump /m.test(spawnSync(options.bendy, ['--help'], { encoding: 'utf8' }).stdout);
     const work = async () => {
         for (let file = jobs.shift(); file; file = jobs.shift()) {
-            // A file with faults is printed, too, with exit status 1.
-            const printed = (error) => (error.code === 1 && error.stdout ? error : Promise.reject(error));
-            const { stdout } = await run(options.bendy, ['inspect', '--json', '--all', file], { maxBuffer: kLargestOutput }).catch(printed);
+            const { stdout } = await run(options.bendy, ['inspect', '--json', '--all', file], { maxBuffer: kLargestOutput });
             const text_form = has_text_form && (await run(options.bendy, ['dump', '--decode', file], { maxBuffer: kLargestOutput }));
             const bytes = new Uint8Array(fs.readFileSync(file));
             const ours = read_file(read, bytes);

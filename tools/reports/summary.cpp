@@ -356,10 +356,7 @@ Summary summarize(const Model& model, Bytes file) {
 }
 
 Result<Summary> summarize_file(const ChunkTree& tree, Bytes file) {
-    const auto& chunks = tree.chunks();
-    const bool is_empty =
-        std::none_of(chunks.begin(), chunks.end(), [](const Chunk& chunk) { return chunk.id == FourCC("OBJE"); });
-    if (is_empty) return summarize_empty(file);
+    if (tree.find(0, FourCC("OBJE")) == kNone) return summarize_empty(file);
     const Result<Model> model = Model::from_memory(file);
     if (!model) return model.error();
     return summarize(*model, file);
