@@ -344,7 +344,7 @@ void add_edit(CLI::App& program) {
         "Example: bendy edit fox.bendy -o out.bendy --strip textures --merge run.glb --rename clip:mixamo.com=Run");
     command->callback([arguments, command] {
         if (arguments->output.empty() == !arguments->in_place)
-            throw CLI::ValidationError("--output", "or --in-place, one of the two, says where to write");
+            throw CLI::ValidationError("--output", "is missing; --output FILE or --in-place says where to write");
         if (arguments->in_place) arguments->output = arguments->input;
         if (arguments->in_place && is_dash(arguments->input))
             throw CLI::ValidationError("--in-place", "goes with a file, not with standard input: -o - writes on");
