@@ -197,8 +197,8 @@ bool is_finite(const Palette& palette) {
 
 /// Joints without meshes; or part meshes, if only these have such joints below them.
 Flags skeleton_without_skins(const Scene& scene, const EvaluatedPose& rest, Report& report) {
-    const Flags bare = joints_without_meshes(scene);
-    const Flags parts = joints_of_parts(scene, rest);
+    Flags bare = joints_without_meshes(scene);
+    Flags parts = joints_of_parts(scene, rest);
     const auto bones = static_cast<std::size_t>(std::count(parts.begin(), parts.end(), true));
     const bool are_parts = std::equal(bare.begin(), bare.end(), parts.begin(),
                                       [](bool is_bare, bool is_part) { return !is_bare || is_part; });

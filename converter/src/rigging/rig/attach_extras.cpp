@@ -139,7 +139,7 @@ private:
         if (notes == nullptr) return;
         for (const OrderedJson& note : need_list(*notes, fields.place_of("notes"))) {
             if (!note.is_string()) continue;
-            std::string text = note.get<std::string>();
+            std::string text = note.text();
             std::replace_if(
                 text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
             report_.warn(std::move(text), fields.place());

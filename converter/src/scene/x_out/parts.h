@@ -107,7 +107,7 @@ private:
     template <class Vector>
     void line(const Vector& vector);
     void write_texture(std::uint32_t number, const std::string& place);
-    std::string file_of(std::uint32_t image);
+    std::string file_of(std::uint32_t number);
     void report_losses(const Material& material, const std::string& place);
 
     const Scene& scene_;
