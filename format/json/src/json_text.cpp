@@ -1,4 +1,5 @@
-// The only source that compiles nlohmann's parser and its formatting of numbers and strings.
+// Compiles nlohmann's parser and its formatting of numbers and strings. Beside it, tinygltf does so for itself, and
+// tools/cli/files/output.cpp reads a glTF file without making values of it.
 #include <bendy/json/json.h>
 
 #include <nlohmann/json.hpp>
