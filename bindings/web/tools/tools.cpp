@@ -455,7 +455,7 @@ Json answer_or_error() {
     try {
         const MappedFile request = map("/request.json");
         const auto json = Json::parse(as_text(request.bytes()));
-        if (!json) throw JsonError("the request is no JSON");
+        if (!json) throw JsonError("the request is not valid JSON");
         return answer_to(*json);
     } catch (const Failure& failure) {
         return error_answer(failure);

@@ -13,7 +13,7 @@
 namespace bendy::converter {
 
 inline constexpr std::string_view kNotEnoughMemory = "not enough memory";
-/// What an export warns of that has no place for a joint's own material.
+/// The warning of exports to formats in which a joint cannot have a material of its own.
 inline constexpr std::string_view kOwnMaterialShared = "a joint's own material is written as the file's";
 
 /// Thrown by the readers inside this folder on bad input; the public functions catch it and return the error.

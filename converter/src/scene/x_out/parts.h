@@ -97,9 +97,9 @@ public:
     MaterialExporter(const Scene& scene, const Names& names, const std::string& image_stem, Text& text,
                      std::vector<XAsset::File>& images, Report& report);
 
-    /// Writes the materials that do not stand in meshes.
+    /// Writes the materials that meshes refer to by name.
     void write_shared();
-    /// Writes an entry of a mesh's list: a joint's own material stands in the first mesh that uses it.
+    /// Writes one entry of a mesh's material list: a joint's own material in full the first time, otherwise the name.
     void write_entry(std::uint32_t material);
 
 private:

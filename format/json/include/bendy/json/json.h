@@ -20,12 +20,12 @@
 // that library makes of templates in every source is compiled once here. docs/decisions/0081-json-compiled-once.md
 namespace bendy {
 
-/// What a value of another type than the asked one, a missing member, or a text that is no JSON throws.
+/// Thrown for a value of the wrong type, a missing member, and text that is not valid UTF-8.
 struct JsonError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Where a text is no JSON.
+/// Where and why a text is not valid JSON.
 struct JsonFault {
     std::size_t byte = 0;  ///< how far the parser has read
     std::string reason;
@@ -103,12 +103,12 @@ public:
     static BasicJson array(List list);
     static BasicJson object();
 
-    /// Nothing, if it is no JSON in UTF-8, has a number outside the range of double, or is nested deeper than
-    /// kMostLevels.
+    /// Returns nothing for text that is not valid JSON in UTF-8, has a number outside the range of double, or is nested
+    /// deeper than kMostLevels.
     static std::optional<BasicJson> parse(std::string_view text, JsonFault* fault = nullptr);
     static constexpr std::size_t kMostLevels = 1000;
 
-    /// What to do with text that is not UTF-8.
+    /// What dump does with strings that are not valid UTF-8.
     enum class InvalidText : std::uint8_t { refused, replaced };
     /// \param indentation  -1: all on one line
     /// \param is_ascii  all else as \\uXXXX
