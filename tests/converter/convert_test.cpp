@@ -215,5 +215,20 @@ TEST(Convert, LevelsOfDetailSayWhatTheyCostInAll) {
     }
 }
 
+TEST(Convert, CompactSourceThatGrowsIsNotedAndKeptIfAsked) {
+    ConvertOptions options;
+    options.compact = ErrorBound();
+    const Buffer compact = convert_good(example("tentacle.glb"), options);
+    const auto suggestions = [&](Buffer source, const ConvertOptions& with) {
+        Report report;
+        EXPECT_TRUE(convert(std::move(source), "tentacle.bendy", with, report).has_value());
+        return report.suggestions();
+    };
+    ASSERT_EQ(suggestions(compact, {}).size(), 1U);
+    EXPECT_NE(suggestions(compact, {}).front().find("--compact"), std::string::npos);
+    EXPECT_TRUE(suggestions(compact, options).empty());
+    EXPECT_TRUE(suggestions(convert_good(example("tentacle.glb")), {}).empty());
+}
+
 }  // namespace
 }  // namespace bendy::converter::convert_test

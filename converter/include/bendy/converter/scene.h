@@ -271,7 +271,8 @@ struct Scene {
     /// JSON object, or empty: further members of the source's scene object, in glTF's structure. A member that is an
     /// index in glTF is an object here, with the members of the element that it refers to (spec/chunks/MORE.md).
     std::string more;
-    std::string source_more;  ///< likewise, of the source's root
+    std::string source_more;   ///< likewise, of the source's root
+    bool was_compact = false;  ///< read from a bendy file with an error bound (BNDS)
 };
 
 }  // namespace bendy::converter

@@ -425,6 +425,7 @@ Scene import(Bytes bytes, Report& report, MeshParts parts) {
     scene.extensions = document.extensions;
     scene.more = object.more;
     scene.source_more = document.more;
+    scene.was_compact = document.bound.has_value();
     read_source_facts(document.extras, scene, report);
     import_joints(object.skeleton, scene);
     import_chains(object, scene);
