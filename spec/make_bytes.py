@@ -227,6 +227,16 @@ def joint_role(joint, role, place, word):
     return [u32(joint, 'joint %d' % joint), u16(role, '  role %d (%s)' % (role, word)), u16(place, '  place %d' % place)]
 
 
+def standing(axes, ground, height, evidence, word, rotations):
+    """`rotations` are (joint, [x, y, z])."""
+    def words(values):
+        return ' '.join('%g' % value for value in values)
+    rows = [piece for joint, rotation in rotations
+            for piece in (u32(joint, 'joint %d' % joint), f32(rotation, '  rotation ' + words(rotation)))]
+    return leaf('STND', f32(axes, 'axes ' + words(axes)), f32(ground, 'ground %g' % ground), f32(height, 'height %g' % height),
+                u8(evidence, 'evidence %d (%s)' % (evidence, word)), u8([0] * 7, 'reserved'), *rows)
+
+
 def limit(model, frame, rotation, scope=0, flags=0, order=0, soft_zone=0, translation=((-INFINITE, INFINITE),) * 3,
           stiffness=(0, 0, 0), preferred=(0, 0, 0)):
     """`rotation` and `translation` are (minimum, maximum) of X, Y, Z; rotation in degrees, None free."""
@@ -455,6 +465,7 @@ def make_every_chunk():
                  *joint_rest(0, [0, 0, 0]), *joint_rest(1, [0, 1, 0])),
             leaf('JNAM', raw(b'root\0', '"root"'), raw(b'tip\0', '"tip"')),
             leaf('ROLE', *joint_role(0, 1, 0, 'hips'), *joint_role(1, 58, 0, 'tail')),
+            standing([half, 0, 0, half], 0, 1, 2, 'clip', [(0, [half, 0, 0]), (1, [0.5, 0.5, 0.5])]),  # Z is up
             box('IKCH', name('body'), chain_info(0, 1, solver=3, tip_offset=[0, 1, 0]), extras('{"by":"hand"}')),
             box('VECT', name('body'), mesh_info(3, 0), extras('{"unit":"m"}'),
                 palette([(0, identity), (1, one_down)]),

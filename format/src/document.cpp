@@ -185,6 +185,7 @@ Document read_document(const ChunkTree& tree, Faults& faults) {
         object.skeleton = read_skeleton(tree, number, faults);
         const auto joints = static_cast<std::uint32_t>(object.skeleton.joints.size());
         object.roles = read_roles(tree, number, joints, faults);
+        object.standing_pose = read_standing_pose(tree, number, joints, faults);
         object.chains = read_chains(tree, number, object.skeleton, faults);
         object.meshes.reserve(count_children(tree, number, FourCC("VECT")));
         object.clips.reserve(count_children(tree, number, FourCC("CYCL")));

@@ -22,7 +22,7 @@ void check_record(const RoleRecord& record, std::uint32_t joints, std::uint64_t 
 void check_order(std::span<const RoleRecord> roles, std::uint64_t offset, Faults& faults) {
     for (std::size_t k = 1; k < roles.size(); ++k) {
         if (roles[k - 1].joint >= roles[k].joint)
-            faults.add({ErrorCode::kRoleOrder, offset, roles[k].joint, roles[k - 1].joint});
+            faults.add({ErrorCode::kJointOrder, offset, roles[k].joint, roles[k - 1].joint});
     }
 }
 

@@ -24,8 +24,8 @@ typedef struct {
 } Chunk;
 static const char kCodecs[9][16] = {"raw", "zstd", "vertices", "vertices, zstd", "indices", "indices, zstd", "clip", "sums", "unknown"};
 static const char kKnown[] = "HEAD VERS BNDS TEXT SAMP IMAG LINK SAME MATE SURF EXTN OBJE NAME EXTR MORE SKIN PIVO REST LIMT PULL POLY "
-    "JNTS JNAM ROLE IKCH KINF VECT VINF PALT TARG TINF FRMS FNAM GRID NLST POSI NORM TANG TEXC COLR BONE WGHT USER VALS INDX LODD CYCL CINF "
-    "TRAK PACK PLAY TIME KEYV MARK CURV";
+    "JNTS JNAM ROLE STND IKCH KINF VECT VINF PALT TARG TINF FRMS FNAM GRID NLST POSI NORM TANG TEXC COLR BONE WGHT USER VALS INDX LODD CYCL "
+    "CINF TRAK PACK PLAY TIME KEYV MARK CURV";
 static const double kIdentity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 static unsigned char* file;
 static uint64_t file_size, chunk_count, joint_count, mesh_count;

@@ -37,11 +37,11 @@ RECORD_OF = {'VERS': 'VersionRecord', 'BNDS': 'BoundRecord', 'SAMP': 'SamplerRec
              'SURF': 'SurfaceRecord', 'REST': 'RestRecord', 'LIMT': 'ConstraintRecord', 'PULL': 'ChainWeightRecord', 'KINF': 'ChainRecord',
              'POLY': 'SubmeshRecord', 'JNTS': 'JointsRecord', 'VINF': 'MeshRecord', 'TINF': 'MorphTargetRecord', 'CINF': 'ClipRecord',
              'PACK': 'PackRecord', 'PALT': 'PaletteRecord', 'LODD': 'CollapseRecord', 'IMAG': 'ImageRecord',
-             'MARK': 'MarkersRecord', 'CURV': 'CurveRecord'}
+             'MARK': 'MarkersRecord', 'STND': 'StandingPoseRecord', 'CURV': 'CurveRecord'}
 STREAMS = ('POSI', 'NORM', 'TANG', 'TEXC', 'COLR', 'BONE', 'WGHT', 'VALS', 'INDX')
 RECORD_OF.update(dict.fromkeys(STREAMS, 'StreamRecord'))
 ROWS = {('TRAK', 'TrackRecord'): 0, ('PLAY', 'PlayRecord'): 0, ('ROLE', 'RoleRecord'): 0, ('JNTS', 'RestRecord'): 16, ('LODD', 'MeshCollapseRecord'): 16,
-        ('MARK', 'MarkerRecord'): 8}  # where a table starts
+        ('STND', 'StandingRotationRecord'): 32, ('MARK', 'MarkerRecord'): 8}  # where a table starts
 
 # What a field holds that no description sets; all others are 0. These are the pages' "none", "free" and "no change".
 DEFAULTS = {
@@ -52,6 +52,7 @@ DEFAULTS = {
     'RestRecord': {'rotation': [0, 0, 0, 1], 'scale': [1, 1, 1]},
     'ConstraintRecord': {'frame': [0, 0, 0, 1], **{'%s_%s' % (what, end): [sign * float('inf')] * 3
                                               for what in ('rotation', 'translation') for end, sign in (('min', -1), ('max', 1))}},
+    'StandingPoseRecord': {'axes': [0, 0, 0, 1]},
     'ChainWeightRecord': {'weight': [1]},
     'ChainRecord': {'target': [NONE], 'pole': [NONE], 'tip_rotation': [0, 0, 0, 1], 'position_weight': [1], 'influence': [1]},
     'SubmeshRecord': {'material': [NONE]},

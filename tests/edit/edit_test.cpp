@@ -403,6 +403,23 @@ TEST(SetMaterial, SaysWhatIsWrong) {
     EXPECT_FALSE(set_material(test::sample_file(), {"#0", "reserved", "0"}, log));
 }
 
+TEST(StandingPose, GoesWithItsJoints) {
+    const std::vector<StandingRotationRecord> rotations{
+        {0, {0.1f, 0.0f, 0.0f}}, {1, {0.2f, 0.0f, 0.0f}}, {3, {0.3f, 0.0f, 0.0f}}};
+    const Edited set = set_standing_pose(test::sample_file(), {}, rotations);
+    ASSERT_TRUE(set) << set.error().message;
+    Log log;
+    const Edited part = extract(*set, "tail*", log);  // joint 3; joint 0 is above it
+    ASSERT_TRUE(part) << part.error().message;
+    const Loaded loaded(*part);
+    const auto& kept = loaded.document.objects.front().standing_pose;
+    ASSERT_TRUE(kept.has_value());
+    ASSERT_EQ(kept->rotations.size(), 2u);
+    EXPECT_EQ(kept->rotations[1].joint, 1u);
+    EXPECT_EQ(kept->rotations[1].rotation[0], 0.3f);
+    EXPECT_EQ(stripped(*set, Part::standing_pose), stripped(test::sample_file(), Part::unknown));
+}
+
 TEST(Names, Matches) {
     EXPECT_TRUE(matches("a*c", "abbc"));
     EXPECT_TRUE(matches("*", ""));

@@ -87,10 +87,10 @@ TEST(CheckGrammar, TheSampleHoldsEveryChunkOfExactFiles) {
     const Loaded loaded(sample_file());
     for (const Chunk& chunk : loaded.tree.chunks()) ids.insert(chunk.id.letters().data());
     // Only compact files hold these: joint_table_test.cpp and packed_clip_test.cpp have them. MARK: marker_test.cpp,
-    // CURV: curve_test.cpp, ROLE: role_test.cpp.
+    // CURV: curve_test.cpp, ROLE: role_test.cpp, STND: standing_pose_test.cpp.
     // Frames and what they are played by, and MORE: tests/conformance and every_chunk.bendy.
-    for (const char* id :
-         {"BNDS", "JNTS", "JNAM", "ROLE", "PACK", "MARK", "CURV", "MORE", "FRMS", "FNAM", "GRID", "NLST", "PLAY"})
+    for (const char* id : {"BNDS", "JNTS", "JNAM", "ROLE", "STND", "PACK", "MARK", "CURV", "MORE", "FRMS", "FNAM",
+                           "GRID", "NLST", "PLAY"})
         EXPECT_TRUE(ids.insert(id).second) << id;
     for (const Row& row : rows()) EXPECT_EQ(ids.count(row.id), 1u) << row.id;
 }

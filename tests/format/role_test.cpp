@@ -84,8 +84,8 @@ TEST(Roles, HavePlacesInChainsOnly) {
 }
 
 TEST(Roles, AscendByJoint) {
-    EXPECT_EQ(faults_with({{1, kHips, 0}, {0, kTail, 0}}), one_fault("ROLE_ORDER"));
-    EXPECT_EQ(faults_with({{1, kHips, 0}, {1, kTail, 0}}), one_fault("ROLE_ORDER"));
+    EXPECT_EQ(faults_with({{1, kHips, 0}, {0, kTail, 0}}), one_fault("JOINT_ORDER"));
+    EXPECT_EQ(faults_with({{1, kHips, 0}, {1, kTail, 0}}), one_fault("JOINT_ORDER"));
 }
 
 TEST(Roles, AreGivenOnce) {

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-// A small file that holds at least one of every chunk of exact files but ROLE, MARK and CURV, and is good in every
-// respect:
+// A small file that holds at least one of every chunk of exact files but ROLE, STND, MARK and CURV, and is good in
+// every respect:
 //
 //     HEAD
 //      VERS

@@ -208,7 +208,7 @@ const std::vector<Provocation> kProvocations{
     edited(
         ErrorCode::kChainWeightRepeated, "HEAD/OBJE/SKIN/PIVO/PULL[1]",
         [](Node& root) { at(root, "HEAD/OBJE/SKIN/PIVO").children.push_back(at(root, "HEAD/OBJE/SKIN/PIVO/PULL")); }),
-    with_roles(ErrorCode::kRoleOrder, {{1, 1, 0}, {0, 2, 0}}),
+    with_roles(ErrorCode::kJointOrder, {{1, 1, 0}, {0, 2, 0}}),
     with_roles(ErrorCode::kRolePlace, {{0, 1, 1}}),
     with_roles(ErrorCode::kRoleRepeated, {{0, 1, 0}, {1, 1, 0}}),
     record<ChainWeightRecord>(ErrorCode::kFractionRange, "HEAD/OBJE/SKIN/PIVO/PULL",

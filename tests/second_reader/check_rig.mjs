@@ -1,7 +1,7 @@
 // Rules of joints, constraints and IK chains: constraints.md and the pages of REST, LIMT, PULL, KINF, JNTS, JNAM,
-// ROLE.
+// ROLE, STND.
 
-import { all_finite, all_zero, is_unit, is_utf8, kNone } from './numbers.mjs';
+import { all_finite, all_zero, is_unit, is_utf8, kNone, kUnitTolerance } from './numbers.mjs';
 import { check_material } from './check_file.mjs';
 
 const kMostJoints = 65000;
@@ -203,8 +203,35 @@ function check_roles(file, object, joints) {
     });
     for (const code of codes) if (code) file.add(code, chunk);
     if (codes.some((code) => code)) return;
-    if (roles.some(({ joint }, k) => k > 0 && joint <= roles[k - 1].joint)) file.add('ROLE_ORDER', chunk);
+    if (roles.some(({ joint }, k) => k > 0 && joint <= roles[k - 1].joint)) file.add('JOINT_ORDER', chunk);
     if (new Set(roles.map(({ role, place }) => `${role} ${place}`)).size < roles.length) file.add('ROLE_REPEATED', chunk);
+}
+
+/** STND.md. */
+const kLastEvidence = 3;
+const kPoseBytes = 32;
+const kRotationBytes = 16;
+
+function check_standing_pose(file, object, joints) {
+    const chunk = file.child(object, 'STND');
+    const pose = file.record(chunk, 'StandingPoseRecord', kPoseBytes);
+    if (!pose) return;
+    const payload = file.payload(chunk);
+    if ((payload.length - kPoseBytes) % kRotationBytes !== 0) file.add('RECORD_SIZE', chunk);
+    if (pose.evidence > kLastEvidence) file.add('ENUM_RANGE', chunk);
+    if (!all_zero(pose.reserved)) file.add('RESERVED_FIELD', chunk);
+    if (!is_unit(pose.axes)) file.add('ROTATION_NOT_UNIT', chunk);
+    if (!all_finite([pose.ground, pose.height])) file.add('NOT_FINITE', chunk);
+    if (pose.height < 0) file.add('BELOW_ZERO', chunk);
+    let before = -1;
+    for (let at = kPoseBytes; at + kRotationBytes <= payload.length; at += kRotationBytes) {
+        const { joint, rotation } = file.read.record('StandingRotationRecord', payload.subarray(at, at + kRotationBytes));
+        if (joint >= joints.length) file.add('JOINT_RANGE', chunk);
+        if (joint <= before) file.add('JOINT_ORDER', chunk);
+        const [x, y, z] = rotation;
+        if (!(x * x + y * y + z * z <= 1 + 2 * kUnitTolerance)) file.add('ROTATION_NOT_UNIT', chunk);
+        before = joint;
+    }
 }
 
 /** Everything about an object's joints but their polygons. Gives { joints, table }. */
@@ -216,6 +243,7 @@ export function check_rig(file, object) {
     const table = check_joint_table(file, object, joints);
     check_names(file, object, joints);
     check_roles(file, object, joints);
+    check_standing_pose(file, object, joints);
     const chains = file.children(object, 'IKCH').map((chain) => check_chain(file, chain, joints));
     for (const joint of joints) {
         const pivot = file.child(joint.chunk, 'PIVO');

@@ -266,7 +266,8 @@ def check_records(check, records):
             check.same(name, 'page of ' + struct, name, place)
             total = size_of(struct, records)
             check.same(name, 'size of ' + struct, int(caption[2]), total)
-            needed = 0 if caption[4] else int(caption[3] or caption[2])
+            is_alone = sum(other['chunk'] == record['chunk'] for other in records.values()) == 1
+            needed = 0 if caption[4] and is_alone else int(caption[3] or caption[2])
             check.same(name, 'needed bytes of ' + struct, needed, record['shortest'])
             in_spec = {row[3]: (row[0], row[1], row[2]) for row in rows if len(row) == 5}
             in_code = {field: (str(offset), kind, str(count)) for offset, kind, count, field in record['fields']}

@@ -52,12 +52,22 @@ std::array<float, 4> to_record(const Rotation& rotation) {
             static_cast<float>(unit.w)};
 }
 
-RestFrames::RestFrames(const Scene& scene) {
+std::vector<Transform> rest_of(const Scene& scene) {
+    std::vector<Transform> locals;
+    locals.reserve(scene.joints.size());
+    for (const Joint& joint : scene.joints) locals.push_back(joint.rest);
+    return locals;
+}
+
+RestFrames::RestFrames(const Scene& scene) : RestFrames(scene, rest_of(scene)) {}
+
+RestFrames::RestFrames(const Scene& scene, std::span<const Transform> locals) {
     joints_.reserve(scene.joints.size());
     for (std::uint32_t number = 0; number < scene.joints.size(); ++number) {
         const Joint& joint = scene.joints[number];
-        const Rotation rotation = rotation_of(joint.rest);
-        Placed placed{joint.rest.translation, rotation, glm::mat3_cast(rotation), glm::dmat3(1.0), number + 1, 0};
+        const Transform& local = locals[number];
+        const Rotation rotation = rotation_of(local);
+        Placed placed{local.translation, rotation, glm::mat3_cast(rotation), glm::dmat3(1.0), number + 1, 0};
         if (joint.parent != kNone) {
             const Placed& parent = joints_[joint.parent];
             placed.position = parent.position + parent.space * placed.position;
@@ -65,7 +75,7 @@ RestFrames::RestFrames(const Scene& scene) {
             placed.axes = parent.space * placed.axes;
             placed.depth = parent.depth + 1;
         }
-        placed.space = placed.axes * stretch(glm::dvec3(joint.rest.scale), joint.rest.shear);
+        placed.space = placed.axes * stretch(glm::dvec3(local.scale), local.shear);
         joints_.push_back(placed);
     }
     for (auto number = static_cast<std::uint32_t>(joints_.size()); number-- > 0;) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace bendy::converter {
@@ -26,6 +27,9 @@ inline RestRecord to_record(const Transform& rest) {
     return record;
 }
 
+/// By joint: its rest transform.
+std::vector<Transform> rest_of(const Scene& scene);
+
 using Rotation = glm::dquat;
 
 /// x y z w as in records, unit.
@@ -37,6 +41,9 @@ std::array<float, 4> to_record(const Rotation& rotation);
 class RestFrames {
 public:
     explicit RestFrames(const Scene& scene);
+    /// Of another pose in place of the rest pose.
+    /// \param locals  by joint: the transform relative to the parent
+    RestFrames(const Scene& scene, std::span<const Transform> locals);
 
     /// The joint's origin in metres.
     [[nodiscard]] glm::dvec3 position(std::uint32_t joint) const { return joints_[joint].position; }

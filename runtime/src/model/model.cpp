@@ -305,6 +305,10 @@ std::span<const JointRole> Model::roles() const {
     return data_->object.roles;
 }
 
+const StandingPose* Model::standing_pose() const {
+    return data_->object.standing_pose ? &*data_->object.standing_pose : nullptr;
+}
+
 std::span<const Chain> Model::chains() const {
     return data_->object.chains;
 }

@@ -4,6 +4,7 @@
 
 #include "kernels/flush_denormals.h"
 #include "kernels/kernel_table.h"
+#include "model/standing_rotations.h"
 #include "pose/pose_state.h"
 #include "unpack.h"
 
@@ -287,6 +288,14 @@ private:
 };
 
 }  // namespace
+
+bool stand(Pose& pose) {
+    PoseState& state = PoseState::of(pose);
+    state.set_rest();
+    for (const StandingJoint& standing : standing_rotations(pose.model()))
+        state.set_rotation(standing.joint, standing.rotation);
+    return pose.model().standing_pose() != nullptr;
+}
 
 Result<void, CallError> sample(Pose& pose, const Clip* clip, float seconds) {
     const ModelData& model = *PoseState::of(pose).data;

@@ -1,5 +1,7 @@
 #include "body.h"
 
+#include "model/standing_rotations.h"
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -81,7 +83,7 @@ Limb divide_leg(const Body& body, const LegChains& standing, std::size_t leg) {
 
 }  // namespace
 
-Body::Body(const Model& model)
+Body::Body(const Model& model, bool stands)
     : model_(model), by_role_(static_cast<std::size_t>(Role::spine_chain), kNone), has_role_(model.joints().size()) {
     for (const JointRole& role : model.roles()) {
         has_role_[role.joint] = true;
@@ -96,10 +98,19 @@ Body::Body(const Model& model)
     const auto joints = model.joints();
     rest_.reserve(joints.size());
     turns_.reserve(joints.size());
-    for (const Joint& joint : joints) {  // parents come first
-        const glm::dmat4 local = to_matrix(joint.rest, joint.shear);
+    std::vector<StandingJoint> standing;
+    if (stands && model.standing_pose() != nullptr) {
+        standing_pose_ = model.standing_pose()->pose;
+        standing = standing_rotations(model);
+    }
+    auto next = standing.begin();
+    for (std::uint32_t number = 0; number < joints.size(); ++number) {  // parents come first
+        const Joint& joint = joints[number];
+        JointTransform transform = joint.rest;
+        if (next != standing.end() && next->joint == number) transform.rotation = (next++)->rotation;
+        const glm::dmat4 local = to_matrix(transform, joint.shear);
         rest_.push_back(joint.parent == kNone ? local : rest_[joint.parent] * local);
-        turns_.push_back(space(joint.parent) * glm::normalize(glm::dquat(joint.rest.rotation)));
+        turns_.push_back(space(joint.parent) * glm::normalize(glm::dquat(transform.rotation)));
     }
 }
 
@@ -179,6 +190,17 @@ void Body::find_limbs() {
     for (std::size_t leg = 0; leg < standing.legs.size(); ++leg) limbs_.push_back(divide_leg(*this, standing, leg));
 }
 
+/// The standing pose says which way is up, and where the ground of the motions is. Where the body is beside that, it
+/// does not say: motions are about the origin.
+void Body::stand_on(const std::array<float, 4>& axes, double ground, const glm::dvec3& feet) {
+    axes_ = glm::normalize(glm::dquat(axes[3], axes[0], axes[1], axes[2]));
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t joint = 0; joint < has_role_.size(); ++joint) {
+        if (has_role_[joint]) lowest = std::min(lowest, glm::dot(up(), place(joint)));
+    }
+    ground_ = up() * (ground + glm::dot(up(), feet) - lowest);
+}
+
 bool Body::measure() {
     find_limbs();
     const glm::dvec3 hips = 0.5 * (place(limbs_[0].upper()) + place(limbs_[1].upper()));
@@ -202,6 +224,10 @@ bool Body::measure() {
     const glm::dvec3 up = snapped(glm::normalize(along), kUpright);
     const glm::dvec3 left = across - up * glm::dot(up, across);
     if (!(glm::length(left) > 1e-3 * leg_) || !std::isfinite(glm::length(left))) return false;
+    if (standing_pose_) {
+        stand_on(standing_pose_->axes, standing_pose_->ground, feet);
+        return true;
+    }
     const glm::dvec3 x = snapped(glm::normalize(left), kAhead);
     axes_ = glm::normalize(glm::quat_cast(glm::dmat3(x, up, glm::cross(x, up))));
     ground_ = hips - up * glm::dot(hips - feet, up);

@@ -7,8 +7,10 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace bendy {
@@ -27,10 +29,12 @@ struct Limb {
     [[nodiscard]] std::uint32_t toes() const { return foot + 1 < joints.size() ? joints.back() : kNone; }
 };
 
-/// A model as a body: what its joints are, and where they are at rest, in model space.
+/// A model as a body: what its joints are, and where they are in model space in its standing pose, or at rest if it has
+/// none.
 class Body {
 public:
-    explicit Body(const Model& model);
+    /// \param stands  false: at rest in any case
+    Body(const Model& model, bool stands);
 
     [[nodiscard]] const Model& model() const { return model_; }
     /// Returns the joint with that role; kNone if there is none.
@@ -71,6 +75,7 @@ public:
 
 private:
     void find_limbs();
+    void stand_on(const std::array<float, 4>& axes, double ground, const glm::dvec3& feet);
 
     Model model_;
     BodyKind kind_ = BodyKind::human;
@@ -78,6 +83,7 @@ private:
     std::vector<bool> has_role_;
     std::vector<glm::dmat4> rest_;
     std::vector<glm::dquat> turns_;
+    std::optional<StandingPoseRecord> standing_pose_;
     std::vector<Limb> limbs_;
     glm::dquat axes_{1.0, 0.0, 0.0, 0.0};
     double leg_ = 0.0;

@@ -39,6 +39,7 @@ public:
             const bool counts = plan_.target.constraint(constraint.joint) == &constraint;
             if (counts && moved_of_[constraint.joint] == kNone) plan_.other_constraints.push_back(&constraint);
         }
+        hold_standing();
         plan_.held.resize(plan_.moved.size());
         plan_.turns.resize(plan_.source_joints.size() + plan_.mixed_turns.size());
         make_hips();
@@ -162,6 +163,14 @@ private:
         const glm::dmat3 in = to_parent == kNone ? glm::dmat3(1.0) : glm::dmat3(target_.rest(to_parent));
         if (!(std::abs(glm::determinant(in)) > 1e-30)) return glm::dmat3(0.0);
         return glm::inverse(in) * glm::mat3_cast(plan_.map.turn) * out * plan_.map.scale;
+    }
+
+    /// Joints that the source does not have stay as they are in the standing pose.
+    void hold_standing() {
+        if (plan_.options.rest_poses != RestPoses::measured) return;
+        for (const StandingJoint& standing : standing_rotations(plan_.target)) {
+            if (moved_of_[standing.joint] == kNone) plan_.standing.push_back(standing);
+        }
     }
 
     void make_hips() {
@@ -332,7 +341,8 @@ std::optional<RetargetError> fault_of(Body& body, bool is_source) {
 
 Result<Retarget, RetargetError> RetargetPlan::make(const Model& source, const Model& target,
                                                    const RetargetOptions& options) {
-    Body from(source), to(target);
+    const bool stand = options.rest_poses == RestPoses::measured;
+    Body from(source, stand), to(target, stand);
     if (auto fault = fault_of(from, true)) return *fault;
     if (auto fault = fault_of(to, false)) return *fault;
     if (from.kind() != to.kind())

@@ -42,6 +42,7 @@ void carry_prop(const MovedJoint& moved, const JointTransform& source, const Joi
 }
 
 void turn_joints(const RetargetPlan& plan, const PoseState& source, PoseState& target) {
+    for (const StandingJoint& standing : plan.standing) target.set_rotation(standing.joint, standing.rotation);
     for (const MovedJoint& moved : plan.moved) {
         if (moved.is_copy) {
             target.set_local(moved.joint, source.local_of(moved.source));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "model/standing_rotations.h"
+
 #include <bendy/runtime/model.h>
 #include <bendy/runtime/retarget.h>
 
@@ -110,6 +112,7 @@ struct RetargetPlan {
     std::vector<SourceJoint> source_joints;
     std::vector<MixedTurn> mixed_turns;
     std::vector<MovedJoint> moved;
+    std::vector<StandingJoint> standing;               ///< joints of the target that the source does not move
     std::vector<const Constraint*> other_constraints;  ///< of joints that are not moved
     std::vector<DetachedJoint> detached;               ///< from the trunk outwards
     HipsPlan hips;

@@ -184,6 +184,45 @@ TEST(GltfRigExtensions, ChainsOfOneNameStayAndAreNamed) {
     EXPECT_EQ(warning_of(with_chains({unnamed, unnamed})), "");
 }
 
+TEST(GltfRigExtensions, TheRootSaysHowTheBodyStands) {
+    const auto with_pose = [](const Json& pose) {
+        Gltf gltf = make_arm();
+        gltf.json["extensions"]["BENDY_standing_pose"] = pose;
+        return gltf.import();
+    };
+    const Json axes{0, 0.6, 0, 0.8};
+    const Json upper{{"node", 1}, {"rotation", {0, 0.5, 0}}};
+    const Json hand{{"node", 3}, {"rotation", {0.6, 0, 0}}};
+    const Import import = with_pose(
+        {{"axes", axes}, {"ground", -0.5}, {"height", 2}, {"evidence", "restPose"}, {"rotations", {hand, upper}}});
+    EXPECT_EQ(warning_of(import), "");
+    ASSERT_TRUE(import->standing_pose.has_value());
+    EXPECT_EQ(import->standing_pose->pose.axes, (std::array{0.0f, 0.6f, 0.0f, 0.8f}));
+    EXPECT_EQ(import->standing_pose->pose.ground, -0.5f);
+    EXPECT_EQ(import->standing_pose->pose.height, 2.0f);
+    EXPECT_EQ(import->standing_pose->pose.evidence, static_cast<std::uint8_t>(StandingEvidence::rest_pose));
+    ASSERT_EQ(import->standing_pose->rotations.size(), 2u);
+    EXPECT_EQ(import->standing_pose->rotations[0].joint, 0u);
+    EXPECT_EQ(import->standing_pose->rotations[1].joint, 2u);
+    EXPECT_EQ(import->standing_pose->rotations[1].rotation, (std::array{0.6f, 0.0f, 0.0f}));
+    EXPECT_EQ(import->extensions, "");
+
+    const std::string here = "extensions.BENDY_standing_pose";
+    const auto fault = [&](const Json& pose) {
+        const Import faulty = with_pose(pose);
+        EXPECT_FALSE(faulty->standing_pose.has_value());
+        return warning_of(faulty);
+    };
+    EXPECT_EQ(fault({{"axes", axes}, {"rotations", {hand, hand}}}),
+              here + ".rotations: standing pose left out: joint #2 has two rotations");
+    EXPECT_EQ(fault({{"axes", axes}, {"rotations", {{{"node", 0}, {"rotation", {0, 0, 0}}}}}}),
+              here + ".rotations[0].node: standing pose left out: node 0 is not in the scene");
+    EXPECT_EQ(fault({{"axes", axes}, {"height", -1}, {"rotations", Json::array()}}).substr(0, here.size() + 7),
+              here + ".height");
+    EXPECT_NE(fault({{"rotations", Json::array()}}), "");
+    EXPECT_NE(fault({{"axes", axes}}), "");
+}
+
 TEST(GltfRigExtensions, WhatEveryObjectMayHaveIsNamed) {
     Gltf gltf = make_arm();
     gltf.json["nodes"][2]["extensions"]["BENDY_joint_limits"] = {{"limits", {{{"model", "locked"}, {"extras", 1}}}},

@@ -10,6 +10,7 @@
 #include <bendy/format/diagnostics.h>
 #include <bendy/json/json.h>
 #include <bendy/motion/retarget_clips.h>
+#include <bendy/motion/stand.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -182,6 +183,21 @@ private:
         push([what = *what](Bytes file, edit::Log& log) { return edit::set_role(file, what, log); });
     }
 
+    void add_stand(const std::string& text) {
+        const std::size_t sign = text.rfind('@');
+        double seconds = 0.0;
+        if (sign == std::string::npos || !CLI::detail::lexical_cast(text.substr(sign + 1), seconds))
+            throw CLI::ValidationError("--stand", '"' + text + "\" is not CLIP@SECONDS");
+        push([clip = text.substr(0, sign), seconds](Bytes file, edit::Log& log) {
+            return motion::stand_as_in_clip(file, clip, seconds, log);
+        });
+    }
+
+    void add_stand_as(const std::string& path) {
+        add_other("standing as", path,
+                  [](Bytes file, Bytes other, edit::Log& log) { return motion::stand_as(file, other, log); });
+    }
+
     void add_set(const std::string& text) {
         const auto what = edit::parse_set(text);
         if (!what) throw CLI::ValidationError("--set", what.error().message);
@@ -248,6 +264,8 @@ const std::map<std::string, Steps::Maker> Steps::kMakers{{"--strip", &Steps::add
                                                          {"--rename-joint", &Steps::add_joint_rename},
                                                          {"--rename-joints", &Steps::add_table},
                                                          {"--role", &Steps::add_role},
+                                                         {"--stand", &Steps::add_stand},
+                                                         {"--stand-as", &Steps::add_stand_as},
                                                          {"--set", &Steps::add_set},
                                                          {"--merge", &Steps::add_merge},
                                                          {"--retarget", &Steps::add_retarget},
@@ -312,6 +330,8 @@ void add_edit(CLI::App& program) {
     add("--rename", "KIND:OLD=NEW; KIND is joint, clip, chain, mesh, target, material, texture or object");
     add("--role",
         "ROLE=JOINT: what a joint is in the body, as in left_hand=Hand.L or tail:2=Tail3; without JOINT, nobody");
+    add("--stand", "CLIP@SECONDS: the body stands upright then; retargeting measures from it, not from the rest pose");
+    add("--stand-as", "FILE: the body stands as that file's character rests, joints by name");
     add("--set",
         "material:NAME.FIELD=VALUE, as in material:Wood.roughness=0.4, base_colour=1,0.5,0,1, alpha_mode=blend or "
         "normal_texture.texture=Bark; any other FIELD lists them all");

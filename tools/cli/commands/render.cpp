@@ -39,6 +39,7 @@ struct RenderArguments {
     std::filesystem::path output;
     std::string clip;
     bool has_clip = false;
+    bool stands = false;
     float time = 0.0f;
     bool has_time = false;
     std::string size;
@@ -177,7 +178,8 @@ public:
 private:
     viewer::RenderOptions options_of(const RenderArguments& arguments) {
         viewer::RenderOptions options = arguments.render;
-        options.adjust = [this, &request = arguments.reach](Pose& pose) {
+        options.adjust = [this, &request = arguments.reach, stands = arguments.stands](Pose& pose) {
+            if (stands) (void)stand(pose);
             results_ = reach_goals(request, goals_, pose);
         };
         for (const ReachGoal& goal : goals_) options.targets.push_back({goal.chain, goal.target.position});
@@ -243,6 +245,8 @@ void draw_all(RenderArguments& arguments, const Model& model, const std::string&
     viewer::RenderOptions& render = arguments.render;
     Frames& frames = arguments.pictures;
     if (arguments.has_clip) render.clip = &find_clip(arguments.clip, arguments.file, model);
+    if (arguments.stands && model.standing_pose() == nullptr)
+        warn(arguments.file, "the file has no standing pose: --stand draws the rest pose");
     if (model.clips().empty() && (is_animation || frames.number() != 0)) {
         fail(arguments.file, std::string("there is no clip for ") + (is_animation ? "an animation" : "--frames") +
                                  "; OUT.png without --frames shows the rest pose");
@@ -333,11 +337,16 @@ void add_render(CLI::App& program) {
     add_root(*command, arguments->root);
     CLI::Option* clip = add_clip(*command, arguments->clip);
     CLI::Option* time = command->add_option("--time", arguments->time, "seconds on the clip's time line")->needs(clip);
+    CLI::Option* stand = command->add_flag(
+        "--stand", arguments->stands, "draw the pose from which retargeting measures the body, in place of a clip's");
+    stand->excludes(clip);
     add_reach(*command, arguments->reach);
-    command->add_option("--frames", arguments->frames,
-                        "N pictures, 1 to 1000, spread over the clip; or A..B@RATE: frames A to B, RATE per second. "
-                        "They are a sheet in OUT.png, the frames of an animation in OUT.gif and OUT.webp, and files of "
-                        "their own if a # in OUT.png is the place of A to B, as in run_####.png");
+    CLI::Option* drawn_frames = command->add_option(
+        "--frames", arguments->frames,
+        "N pictures, 1 to 1000, spread over the clip; or A..B@RATE: frames A to B, RATE per second. "
+        "They are a sheet in OUT.png, the frames of an animation in OUT.gif and OUT.webp, and files of "
+        "their own if a # in OUT.png is the place of A to B, as in run_####.png");
+    stand->excludes(drawn_frames);
     command->add_option("--size", arguments->size, "WIDTHxHEIGHT of a picture, pixels; 1024x768, of several 320x240");
     command->add_option("--camera", arguments->camera,
                         "YAW,PITCH[,DISTANCE]: degrees round the character, 0,0 its front; and a factor; 34,11 fitted");

@@ -3,6 +3,7 @@
 #include "rewrite.h"
 
 #include <bendy/format/role.h>
+#include <bendy/format/standing_pose.h>
 
 #include <algorithm>
 #include <array>
@@ -13,19 +14,18 @@
 namespace bendy::edit {
 namespace {
 
-/// Adds, replaces or removes the ROLE of an object. A new one follows the joints.
-void put_roles(const Source& source, std::uint32_t object, std::span<const RoleRecord> roles, Rewrite& rewrite) {
-    const std::uint32_t before = source.tree.find(object, FourCC("ROLE"));
-    const Bytes payload = std::as_bytes(roles);
-    if (before != kNone && roles.empty()) return rewrite.remove(before);
+/// Adds, replaces or removes a leaf of an object that says what its joints are. A new one follows the joints.
+void put_after_joints(const Source& source, std::uint32_t object, FourCC id, Bytes payload, Rewrite& rewrite) {
+    const std::uint32_t before = source.tree.find(object, id);
+    if (before != kNone && payload.empty()) return rewrite.remove(before);
     if (before != kNone) return rewrite.replace(before, payload);
-    constexpr std::array kFirst{FourCC("NAME"), FourCC("EXTR"), FourCC("MORE"),
-                                FourCC("SKIN"), FourCC("JNTS"), FourCC("JNAM")};
+    constexpr std::array kFirst{FourCC("NAME"), FourCC("EXTR"), FourCC("MORE"), FourCC("SKIN"),
+                                FourCC("JNTS"), FourCC("JNAM"), FourCC("ROLE")};
     std::uint32_t last = kNone;
     for (const std::uint32_t child : source.tree.children(object)) {
         if (std::find(kFirst.begin(), kFirst.end(), source.tree[child].id) != kFirst.end()) last = child;
     }
-    Buffer leaf = whole_leaf(FourCC("ROLE"), payload);
+    Buffer leaf = whole_leaf(id, payload);
     if (last == kNone) return rewrite.prepend(object, std::move(leaf));
     rewrite.insert_after(last, std::move(leaf));
 }
@@ -87,7 +87,18 @@ Edited set_role(Bytes file, const SetRole& what, Log& log) {
     }
     std::sort(roles.begin(), roles.end(), [](const RoleRecord& a, const RoleRecord& b) { return a.joint < b.joint; });
     Rewrite rewrite(source->tree);
-    put_roles(*source, object.chunk, roles, rewrite);
+    put_after_joints(*source, object.chunk, FourCC("ROLE"), std::as_bytes(std::span(roles)), rewrite);
+    return finish(rewrite);
+}
+
+Edited set_standing_pose(Bytes file, const StandingPoseRecord& pose,
+                         std::span<const StandingRotationRecord> rotations) {
+    const auto source = open_source(file);
+    if (!source) return source.error();
+    if (source->document.objects.empty()) return Problem{"the file has no object"};
+    Rewrite rewrite(source->tree);
+    put_after_joints(*source, source->document.objects.front().chunk, FourCC("STND"),
+                     write_standing_pose(pose, rotations), rewrite);
     return finish(rewrite);
 }
 

@@ -28,6 +28,7 @@ constexpr std::array kWords{Word{Part::textures, "texture", "textures"},
                             Word{Part::markers, "", "markers"},
                             Word{Part::chains, "chain", "chains"},
                             Word{Part::roles, "", "roles"},
+                            Word{Part::standing_pose, "", "standing-pose"},
                             Word{Part::constraints, "constraint", "constraints"},
                             Word{Part::lod, "", "lod"},
                             Word{Part::tangents, "", "tangents"},
@@ -87,6 +88,8 @@ private:
                 return strip_leaves(FourCC("MARK"));
             case Part::roles:
                 return strip_leaves(FourCC("ROLE"));
+            case Part::standing_pose:
+                return strip_leaves(FourCC("STND"));
             case Part::lod:
                 return strip_leaves(FourCC("LODD"));
             case Part::tangents:

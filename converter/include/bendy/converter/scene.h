@@ -253,10 +253,17 @@ struct Material {
     std::string more;  ///< JSON object: see Scene::more
 };
 
+/// The pose in which the body stands, if that is not the rest pose: STND.
+struct StandingPose {
+    StandingPoseRecord pose;
+    std::vector<StandingRotationRecord> rotations;  ///< ascending by joint
+};
+
 struct Scene {
     std::string name;
     std::vector<Joint> joints;      ///< pre-order: parents first, siblings in the source's order
     std::vector<RoleRecord> roles;  ///< what joints are in the body, ascending by joint; each role and place once
+    std::optional<StandingPose> standing_pose;
     std::vector<Chain> chains;
     std::vector<Mesh> meshes;
     std::vector<LodLevel> levels;  ///< by error; empty if no mesh has a collapse sequence

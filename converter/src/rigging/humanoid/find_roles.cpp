@@ -8,6 +8,7 @@
 #include "mirrored_chains.h"
 #include "scene/failure.h"
 #include "scene/rest_frames.h"
+#include "standing_pose.h"
 
 #include <bendy/converter/report.h>
 #include <bendy/format/records.h>
@@ -244,6 +245,19 @@ std::vector<RoleRecord> roles_among(const Scene& scene, const RestFrames& rest, 
     return roles.take();
 }
 
+/// The roles of a body whose names are clear, but whose rest pose does not have its shape: in the pose of its bind
+/// matrices, or in the frame of a clip in which it stands best.
+std::vector<RoleRecord> roles_in_another_pose(const Scene& scene, const RestFrames& rest, const ClipRotations& clips) {
+    const std::vector<bool> all(scene.joints.size(), true);
+    const NamedHumanoid named = find_humanoid(scene, rest, find_bound_joints(scene));
+    const auto roles_in = [&](const std::optional<CandidatePose>& pose) {
+        return pose ? roles_among(scene, RestFrames(scene, pose->locals), clips, all) : std::vector<RoleRecord>();
+    };
+    std::vector<RoleRecord> roles = roles_in(find_bind_pose(scene));
+    if (roles.empty()) roles = roles_in(find_standing_frame(scene, named.bones));
+    return roles;
+}
+
 bool has_role(const std::vector<RoleRecord>& roles, std::uint32_t joint) {
     return std::any_of(roles.begin(), roles.end(), [&](const RoleRecord& each) { return each.joint == joint; });
 }
@@ -316,6 +330,7 @@ void find_roles(Scene& scene, std::uint32_t hips, Report& report) {
     const RestFrames rest(scene);
     const ClipRotations clips(scene);
     std::vector<RoleRecord> whole = roles_among(scene, rest, clips, std::vector<bool>(scene.joints.size(), true));
+    if (whole.empty()) whole = roles_in_another_pose(scene, rest, clips);
     std::vector<Character> all = find_several(scene, rest, clips, whole);
     const std::uint32_t wanted = hips == kNone ? joint_with(whole, Role::hips) : hips;
     const auto used = std::find_if(all.begin(), all.end(), [&](const Character& each) {

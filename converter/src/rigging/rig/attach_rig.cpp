@@ -159,6 +159,31 @@ void attach_roles(Scene& scene, const Rig& rig, const JointIndex& index) {
     scene.roles = std::move(roles);
 }
 
+void attach_standing_pose(Scene& scene, const Rig& rig, const JointIndex& index) {
+    if (!rig.has_standing_pose) return;
+    if (!rig.standing_pose) {
+        scene.standing_pose.reset();
+        return;
+    }
+    StandingPose standing{rig.standing_pose->pose, {}};
+    for (const auto& [key, rotation] : rig.standing_pose->rotations) {
+        const std::string where = member("standing_pose.rotations", key);
+        const std::uint32_t joint = index.find_key(key);
+        if (joint == kNone) fail(where, "there is no joint " + quote(key) + index.suggest(name_of_key(key)));
+        standing.rotations.push_back({joint, rotation});
+    }
+    sort_rotations(standing.rotations, "standing_pose.rotations");
+    scene.standing_pose = std::move(standing);
+}
+
+void sort_rotations(std::vector<StandingRotationRecord>& rotations, const std::string& place) {
+    std::sort(rotations.begin(), rotations.end(),
+              [](const StandingRotationRecord& a, const StandingRotationRecord& b) { return a.joint < b.joint; });
+    const auto twice = std::adjacent_find(rotations.begin(), rotations.end(),
+                                          [](const auto& a, const auto& b) { return a.joint == b.joint; });
+    if (twice != rotations.end()) fail(place, "joint #" + std::to_string(twice->joint) + " has two rotations");
+}
+
 std::uint32_t find_hips(const Rig& rig, const JointIndex& index) {
     if (!rig.roles) return kNone;
     const auto hips = std::find_if(rig.roles->begin(), rig.roles->end(),

@@ -27,6 +27,11 @@ void attach_rig(Scene& scene, const Rig& rig, const JointIndex& index, Claims& c
 /// Gives joints the roles that the rig names; other joints keep theirs, unless the rig gives the role to another joint.
 /// Fails at the JSON path of a joint that does not exist or is named twice; the scene is then unchanged.
 void attach_roles(Scene& scene, const Rig& rig, const JointIndex& index);
+/// Sets the standing pose that the rig says, or removes it. Fails at the JSON path of a joint that does not exist or is
+/// named twice; the scene is then unchanged.
+void attach_standing_pose(Scene& scene, const Rig& rig, const JointIndex& index);
+/// Sorts rotations by joint; fails at the place if a joint has two.
+void sort_rotations(std::vector<StandingRotationRecord>& rotations, const std::string& place);
 /// Returns the hips, if the rig names them and the scene has that joint; otherwise kNone.
 std::uint32_t find_hips(const Rig& rig, const JointIndex& index);
 

@@ -4,6 +4,7 @@
 #include "scene/source/source_file.h"
 
 #include <bendy/converter/source_format.h>
+#include <bendy/format/clip.h>
 #include <bendy/format/constraint.h>
 #include <bendy/format/diagnostics.h>
 
@@ -158,6 +159,28 @@ void parse_chain_settings(Fields& fields, ChainRecord& record) {
     read_flag(fields, "proposed", kProposed, record.flags);
 }
 
+void parse_standing_settings(Fields& fields, StandingPoseRecord& record) {
+    fields.need("axes");
+    fields.read_rotation("axes", record.axes);
+    fields.read("ground", record.ground);
+    fields.read("height", record.height, 0.0f);
+    fields.read_word("evidence", kValueNames<StandingEvidence>, record.evidence);
+}
+
+std::array<float, 3> parse_standing_rotation(const OrderedJson& value, const std::string& place) {
+    std::array<float, 3> rotation{};
+    need_list(value, place);
+    if (value.size() != rotation.size())
+        fail(place, "expected x y z of a rotation, found " + std::to_string(value.size()) + " numbers");
+    double square = 0.0;
+    for (std::size_t k = 0; k < rotation.size(); ++k) {
+        rotation[k] = to_float(value[k], at(place, k));
+        square += double{rotation[k]} * rotation[k];
+    }
+    if (square > 1.0 + 2.0 * kUnitTolerance) fail(place, "no unit quaternion has these x y z");
+    return rotation;
+}
+
 RigChain parse_chain(const OrderedJson& value, const std::string& place, Notation notation) {
     Fields fields(value, place, notation);
     RigChain chain;
@@ -199,6 +222,19 @@ RigRole parse_role(std::string_view word, const OrderedJson& value, const std::s
     return role;
 }
 
+RigStandingPose parse_standing_pose(const OrderedJson& value, const std::string& place) {
+    Fields fields(value, place, Notation::rig_file);
+    RigStandingPose standing;
+    parse_standing_settings(fields, standing.pose);
+    const std::string at_rotations = fields.place_of("rotations");
+    const OrderedJson& rotations = fields.need("rotations");
+    Fields entries(rotations, at_rotations, Notation::rig_file);  // an object, every key once
+    for (const auto& [joint, rotation] : rotations.items())
+        standing.rotations.emplace_back(joint, parse_standing_rotation(rotation, entries.place_of(joint)));
+    fields.refuse_others();
+    return standing;
+}
+
 constexpr std::uint64_t kVersion = 1;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
 
@@ -234,6 +270,10 @@ Rig parse_rig(std::string_view text, Report& report) {
         rig.roles.emplace();
         for (const auto& [word, value] : roles->items())
             rig.roles->push_back(parse_role(word, value, entries.place_of(word)));
+    }
+    if (const OrderedJson* standing = fields.find("standing_pose"); standing != nullptr) {
+        rig.has_standing_pose = true;
+        if (!standing->is_null()) rig.standing_pose = parse_standing_pose(*standing, "standing_pose");
     }
     if (const OrderedJson* clips = fields.find("markers"); clips != nullptr) {
         Fields entries(*clips, "markers", Notation::rig_file);

@@ -9,6 +9,7 @@
 #include <bendy/converter/scene.h>
 #include <bendy/format/records.h>
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -51,6 +52,12 @@ struct RigRole {
         joints;  ///< keys without globs; one or none, or the joints of a chain from the body outwards
 };
 
+/// The pose in which the body stands, by keys of joints.
+struct RigStandingPose {
+    StandingPoseRecord pose;
+    std::vector<std::pair<std::string, std::array<float, 3>>> rotations;  ///< keys without globs
+};
+
 /// The constraints, chains and markers of one source, not yet matched to a skeleton. Sources of lower authority than
 /// the rig file use the same form, and attach_rig checks them the same way.
 struct Rig {
@@ -58,7 +65,9 @@ struct Rig {
     bool complete = false;
     std::vector<RigEntry> joints;
     std::vector<RigChain> chains;
-    std::optional<std::vector<RigRole>> roles;    ///< nothing: it has no list of roles
+    std::optional<std::vector<RigRole>> roles;  ///< nothing: it has no list of roles
+    bool has_standing_pose = false;             ///< it says what the standing pose is, or that there is none
+    std::optional<RigStandingPose> standing_pose;
     std::optional<std::vector<RigClip>> clips;    ///< nothing: it has no list of markers
     std::optional<std::vector<RigCurve>> curves;  ///< nothing: it has no list of curves
 };
@@ -75,6 +84,12 @@ void check_constraint_at(const ConstraintRecord& constraint, const std::string& 
 
 /// Parses what a chain has beside its name, joints, weights and extras. Fails at the JSON path of an error.
 void parse_chain_settings(Fields& fields, ChainRecord& record);
+
+/// Parses what a standing pose has beside its rotations. Fails at the JSON path of an error.
+void parse_standing_settings(Fields& fields, StandingPoseRecord& record);
+
+/// Parses the rotation of a joint: x y z of a unit quaternion whose w is not negative. Fails at the place.
+std::array<float, 3> parse_standing_rotation(const OrderedJson& value, const std::string& place);
 
 /// Parses one chain of a rig file or of extras. Fails at the JSON path of an error.
 RigChain parse_chain(const OrderedJson& value, const std::string& place, Notation notation);

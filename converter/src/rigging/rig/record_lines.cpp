@@ -170,4 +170,11 @@ void add_chain_settings(RecordLine& line, const ChainRecord& record) {
     line.add_flag("proposed", record.flags, kProposed);
 }
 
+void add_standing_settings(RecordLine& line, const StandingPoseRecord& record) {
+    line.add("axes", json_list(record.axes));
+    line.add_number("ground", record.ground);
+    line.add_number("height", record.height);
+    line.add_word("evidence", kValueNames<StandingEvidence>, record.evidence);
+}
+
 }  // namespace bendy::converter

@@ -56,4 +56,7 @@ std::string write_constraint(const ConstraintRecord& constraint, Notation notati
 /// Adds what a chain has beside its name, joints, weights and extras.
 void add_chain_settings(RecordLine& line, const ChainRecord& record);
 
+/// Adds what a standing pose has beside its rotations.
+void add_standing_settings(RecordLine& line, const StandingPoseRecord& record);
+
 }  // namespace bendy::converter

@@ -55,6 +55,7 @@ public:
         if (!chains.empty()) text += ",\n  \"chains\": [" + chains + "\n  ]";
         const std::string roles = with_markers ? write_roles() : std::string();
         if (!roles.empty()) text += ",\n  \"roles\": {" + roles + "\n  }";
+        if (with_markers && object_.standing_pose) text += ",\n  \"standing_pose\": " + write_standing_pose();
         const std::string markers = with_markers ? write_markers() : std::string();
         if (!markers.empty()) text += ",\n  \"markers\": {" + markers + "\n  }";
         const std::string curves = with_markers ? write_curves() : std::string();
@@ -104,6 +105,18 @@ private:
             text += is_list ? "]" : "";
         }
         return text;
+    }
+
+    [[nodiscard]] std::string write_standing_pose() const {
+        RecordLine line(Notation::rig_file);
+        add_standing_settings(line, object_.standing_pose->pose);
+        std::string rotations;
+        for (const StandingRotationRecord& record : object_.standing_pose->rotations) {
+            rotations += (rotations.empty() ? "\n    " : ",\n    ") + json_text(name_of(record.joint)) + ": " +
+                         json_list(record.rotation);
+        }
+        line.add("rotations", '{' + rotations + "\n  }");
+        return line.text();
     }
 
     /// The entries of all clips that have markers.

@@ -103,7 +103,7 @@ constexpr std::array kRead{
     FourCC("TANG"), FourCC("TEXC"), FourCC("COLR"), FourCC("BONE"), FourCC("WGHT"), FourCC("USER"), FourCC("VALS"),
     FourCC("INDX"), FourCC("CYCL"), FourCC("CINF"), FourCC("TRAK"), FourCC("TIME"), FourCC("KEYV"), FourCC("PACK"),
     FourCC("LODD"), FourCC("BNDS"), FourCC("JNTS"), FourCC("JNAM"), FourCC("MARK"), FourCC("MORE"), FourCC("FRMS"),
-    FourCC("FNAM"), FourCC("GRID"), FourCC("NLST"), FourCC("PLAY"), FourCC("CURV"), FourCC("ROLE")};
+    FourCC("FNAM"), FourCC("GRID"), FourCC("NLST"), FourCC("PLAY"), FourCC("CURV"), FourCC("ROLE"), FourCC("STND")};
 
 /// Number of bytes read from a leaf that holds a single record; 0 for other leaves.
 std::uint64_t record_size(FourCC id) {
@@ -188,6 +188,10 @@ void import_joints(const SkeletonView& skeleton, Scene& scene) {
 
 void import_chains(const ObjectView& object, Scene& scene) {
     scene.roles.assign(object.roles.begin(), object.roles.end());
+    if (object.standing_pose) {
+        scene.standing_pose = {object.standing_pose->pose,
+                               {object.standing_pose->rotations.begin(), object.standing_pose->rotations.end()}};
+    }
     for (const ChainView& view : object.chains) {
         Chain& chain = scene.chains.emplace_back();
         chain.name = view.name;

@@ -336,8 +336,7 @@ private:
         if (moved_.empty()) return;
         per_frame += sizeof(double);
         for (const Joint& joint : scene_.joints) frame_.push_back({joint.rest.translation, {1.0, 0.0, 0.0, 0.0}});
-        up_ = lowest(2) < lowest(1) ? 2 : 1;
-        const double at_rest = lowest(up_);
+        const std::array at_rest{0.0, lowest(1), lowest(2)};
         are_lines_frames_ = look_ahead(stated);
         std::size_t frames = 0;
         for (; !words_.is_at_end(); ++frames) {
@@ -350,7 +349,7 @@ private:
                          ", which are all read");
         }
         if (frames > 0) add_clip(frames, step);
-        if (frames > 0) stand_up(at_rest);
+        if (frames > 0) stand_up(at_rest[static_cast<std::size_t>(up_)]);
     }
 
     /// Reads the time of a frame, in seconds.
@@ -407,6 +406,9 @@ private:
         return low;
     }
 
+    /// How far the skeleton hangs below its first root in the current frame.
+    double hangs(glm::length_t axis) { return frame_.front().place[axis] - lowest(axis); }
+
     /// A root whose OFFSET has no height, and that each frame moves, would hang in the ground at rest: its lowest joint
     /// is then on the ground of the motion, which is where the lowest joint is in most frames.
     void stand_up(double at_rest) {
@@ -447,6 +449,7 @@ private:
         unseen_ += 4 * moved_.size();  // so that the work follows the size of the file
         if (!lows_.empty() && unseen_ < scene_.joints.size()) return;
         unseen_ = 0;
+        if (lows_.empty()) up_ = hangs(2) > hangs(1) ? 2 : 1;
         lows_.push_back(lowest(up_));
     }
 
@@ -510,7 +513,7 @@ private:
     std::size_t in_frame_ = 0;   ///< numbers of the current frame that were read
     std::string frame_place_;    ///< of the current frame
     bool are_lines_frames_ = false;
-    glm::length_t up_ = 1;      ///< the axis along which the skeleton hangs from its root: Y or Z
+    glm::length_t up_ = 1;      ///< the axis along which the skeleton hangs from its root in the first frame: Y or Z
     std::vector<double> lows_;  ///< of frames: the height of the lowest joint, metres
     std::size_t unseen_ = 0;    ///< joints that moved since the last of these
 };

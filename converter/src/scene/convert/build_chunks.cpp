@@ -12,6 +12,7 @@
 #include <bendy/format/material.h>
 #include <bendy/format/packed_clip.h>
 #include <bendy/format/records.h>
+#include <bendy/format/standing_pose.h>
 
 #include <algorithm>
 #include <array>
@@ -438,6 +439,8 @@ std::vector<std::byte> build(const Scene& scene, Scene* spent, std::string_view 
     put_text(out, FourCC("MORE"), scene.more);
     put_joints(out, scene, sort_by_joint(scene, polygons, materials), materials);
     if (!scene.roles.empty()) out.leaf(FourCC("ROLE"), std::as_bytes(std::span(scene.roles)));
+    if (scene.standing_pose)
+        out.leaf(FourCC("STND"), write_standing_pose(scene.standing_pose->pose, scene.standing_pose->rotations));
     for (const Chain& chain : scene.chains) put_chain(out, chain);
     const CompactMesh exact;
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {

@@ -16,6 +16,7 @@
 #include "scene/source/source_file.h"
 #ifdef BENDY_AUTO_RIG
 #include "rigging/humanoid/auto_rig.h"
+#include "rigging/humanoid/standing_pose.h"
 #endif
 
 #include <bendy/converter/build_chunks.h>
@@ -38,6 +39,7 @@ void auto_rig(Scene& /*scene*/, const std::vector<bool>& /*claimed*/, Report& /*
     fail({}, "--auto-rig needs a program that was built with BENDY_AUTO_RIG=ON");
 }
 void add_vrm_chains(Scene& /*scene*/, Report& /*report*/) {}
+void find_standing_pose(Scene& /*scene*/, Report& /*report*/) {}
 #endif
 
 /// Attaches the rig file in the scene's extras. Returns true if it is complete, so that other sources are ignored.
@@ -47,6 +49,7 @@ bool attach_exported_rig(Scene& scene, const JointIndex& index, Claims& claims, 
     try {
         attach_rig(scene, *rig, index, claims, report);
         attach_roles(scene, *rig, index);
+        attach_standing_pose(scene, *rig, index);
         if (!markers_are_told) attach_markers(scene, *rig, report);
         attach_curves(scene, *rig, index, report);
         return rig->complete;
@@ -141,6 +144,8 @@ Result<Scene, ImportError> import_source(std::optional<Buffer> source, const std
     const JointIndex index(*scene);
     if (!rig || !rig->complete || !rig->roles) find_roles(*scene, rig ? find_hips(*rig, index) : kNone, report);
     if (rig) attach_roles(*scene, *rig, index);
+    if (rig) attach_standing_pose(*scene, *rig, index);
+    if (!rig || !rig->has_standing_pose) find_standing_pose(*scene, report);
     return scene;
 }
 

@@ -58,6 +58,7 @@ constexpr std::array kKnown = {
     Known{kIkChains, Use::ignored},
     Known{kJointLimits, Use::ignored},
     Known{kJointRole, Use::ignored},
+    Known{kStandingPose, Use::ignored},
     Known{"KHR_lights_punctual", Use::ignored},
     Known{"KHR_materials_variants", Use::ignored},
     Known{"KHR_xmp_json_ld", Use::ignored},
@@ -291,8 +292,9 @@ public:
         Json kept = *extensions;
         if (are_instances_made) kept.erase(std::string(kInstancing));
         // import_rig_extensions has read these.
-        kept.erase(std::string(place.empty() ? kIkChains : kJointLimits));
-        if (!place.empty()) kept.erase(std::string(kJointRole));
+        for (const std::string_view own :
+             place.empty() ? std::array{kIkChains, kStandingPose} : std::array{kJointLimits, kJointRole})
+            kept.erase(std::string(own));
         std::vector<std::string> gone;
         for (auto extension = kept.begin(); extension != kept.end(); ++extension) {
             const std::string at_extension = here + '.' + key(extension.key());

@@ -11,10 +11,12 @@ namespace bendy::converter::gltf {
 /// A node that draws its mesh several times: kept as data, or made joints (GltfOptions::instances).
 inline constexpr std::string_view kInstancing = "EXT_mesh_gpu_instancing";
 
-/// Our own, of nodes and of the root: the joints' limits and roles, and IK chains (spec/gltf.md).
+/// Our own, of nodes and of the root: the joints' limits and roles, IK chains, and the pose in which the body stands
+/// (spec/gltf.md).
 inline constexpr std::string_view kJointLimits = "BENDY_joint_limits";
 inline constexpr std::string_view kJointRole = "BENDY_joint_role";
 inline constexpr std::string_view kIkChains = "BENDY_ik_chains";
+inline constexpr std::string_view kStandingPose = "BENDY_standing_pose";
 
 /// A motion without a character: what bones and expressions its nodes are.
 inline constexpr std::string_view kVrmAnimation = "VRMC_vrm_animation";

@@ -34,6 +34,11 @@ public:
         const std::string place = "extensions." + std::string(kIkChains);
         const Json* extension = find_extension(document_.json, kIkChains);
         if (extension != nullptr) guard("chains left out", place, [&] { read_chains(*extension, place); });
+        const std::string at_stand = "extensions." + std::string(kStandingPose);
+        const Json* standing = find_extension(document_.json, kStandingPose);
+        if (standing != nullptr)
+            guard("standing pose left out", at_stand,
+                  [&] { scene_.standing_pose = read_standing_pose(*standing, at_stand); });
     }
 
 private:
@@ -103,6 +108,27 @@ private:
         const RoleRecord record{joint, role, static_cast<std::uint16_t>(number)};
         if (!roles_.emplace(record.role, record.place).second) fail(place, "an earlier node has the same role");
         return record;
+    }
+
+    StandingPose read_standing_pose(const Json& extension, const std::string& place) {
+        auto own = parse_json_text<OrderedJson>(extension.dump(), document_.report);
+        remove_further(own, place, kFurther);
+        Fields fields(own, place, Notation::gltf);
+        StandingPose standing;
+        parse_standing_settings(fields, standing.pose);
+        const std::string at_rotations = fields.place_of("rotations");
+        const OrderedJson& list = need_list(fields.need("rotations"), at_rotations);
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            Fields each(list[i], at(at_rotations, i), Notation::gltf);
+            each.need("node");
+            const std::uint32_t joint = read_joint(each, "node");
+            standing.rotations.push_back(
+                {joint, parse_standing_rotation(each.need("rotation"), each.place_of("rotation"))});
+            each.refuse_others();
+        }
+        fields.refuse_others();
+        sort_rotations(standing.rotations, at_rotations);
+        return standing;
     }
 
     std::vector<ConstraintRecord> read_limits(const Json& extension, const std::string& place,

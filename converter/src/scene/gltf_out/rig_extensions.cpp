@@ -47,6 +47,18 @@ void export_rig(const Scene& scene, Json& root, Report& report) {
         role["role"] = spelled(kValueNames<Role>[record.role], Notation::gltf);
         if (record.role >= static_cast<std::uint16_t>(kFirstChainRole)) role["place"] = record.place;
     }
+    if (scene.standing_pose) {
+        RecordLine line(Notation::gltf);
+        add_standing_settings(line, scene.standing_pose->pose);
+        auto standing = parse_json_text<Json>(line.text(), report);
+        standing["rotations"] = Json::array();
+        for (const StandingRotationRecord& record : scene.standing_pose->rotations) {
+            Json rotation = Json::array();
+            for (const float number : record.rotation) rotation.push_back(json_number(number));
+            standing["rotations"].push_back({{"node", record.joint}, {"rotation", std::move(rotation)}});
+        }
+        root["extensions"][std::string(gltf::kStandingPose)] = std::move(standing);
+    }
     for (std::size_t i = 0; i < scene.chains.size(); ++i) {
         root["extensions"][std::string(gltf::kIkChains)]["chains"].push_back(
             write_chain(scene.chains[i], at("chains", i), report));

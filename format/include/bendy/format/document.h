@@ -8,6 +8,7 @@
 #include <bendy/format/mesh.h>
 #include <bendy/format/public.h>
 #include <bendy/format/role.h>
+#include <bendy/format/standing_pose.h>
 
 #include <cstdint>
 #include <optional>
@@ -22,7 +23,8 @@ struct ObjectView {
     std::uint32_t chunk = 0;
     std::string_view name;
     SkeletonView skeleton;
-    std::span<const RoleRecord> roles;  ///< ROLE, in place; ascending by joint
+    std::span<const RoleRecord> roles;              ///< ROLE, in place; ascending by joint
+    std::optional<StandingPoseView> standing_pose;  ///< STND; absent: the rest pose stands, or nothing is known of it
     std::vector<ChainView> chains;
     std::vector<MeshView> meshes;
     std::optional<CollapseView> collapse;  ///< LODD

@@ -118,6 +118,20 @@ struct RoleRecord {
     std::uint16_t place = 0;
 };
 
+/// STND: the pose in which the body stands; a StandingRotationRecord for each of its joints follows.
+struct StandingPoseRecord {
+    std::array<float, 4> axes{0.0f, 0.0f, 0.0f, 1.0f};
+    float ground = 0.0f;
+    float height = 0.0f;
+    std::uint8_t evidence = 0;  ///< a StandingEvidence
+    std::array<std::uint8_t, 7> reserved{};
+};
+
+struct StandingRotationRecord {
+    std::uint32_t joint = 0;
+    std::array<float, 3> rotation{};  ///< x y z, w >= 0
+};
+
 struct ChainRecord {
     std::uint32_t start = 0;
     std::uint32_t effector = 0;

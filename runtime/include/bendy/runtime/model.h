@@ -25,6 +25,7 @@ namespace BENDY_PUBLIC bendy {
 // The format's views are the runtime's data: they refer to the mapped file.
 using Chain = ChainView;
 using JointRole = RoleRecord;
+using StandingPose = StandingPoseView;
 using Clip = ClipView;
 using Mesh = MeshView;
 using Material = MaterialView;
@@ -113,6 +114,9 @@ public:
 
     /// What joints are in the body (hips, left upper leg, ...), ordered by joint; empty if the file does not say it.
     [[nodiscard]] std::span<const JointRole> roles() const;
+    /// The pose in which the body stands, if that is not the rest pose; null if the file does not say it. Retargeting
+    /// measures from it.
+    [[nodiscard]] const StandingPose* standing_pose() const;
 
     /// The joints' constraints, ordered by joint.
     [[nodiscard]] std::span<const Constraint> constraints() const;

@@ -31,4 +31,8 @@ struct FrameMix {
 /// to the first, and are at the first frame again at the end.
 [[nodiscard]] FrameMix mix_frames(const PlayRecord& play, const Clip& clip, float seconds);
 
+/// Sets the pose in which the model's body stands (Model::standing_pose): joints that it names are turned as it says,
+/// and all else is at rest. Returns false, with the rest pose, if the model has none.
+bool stand(Pose& pose);
+
 }  // namespace bendy

@@ -45,22 +45,23 @@ Result<std::vector<std::size_t>, Problem> find_named(std::span<const std::string
 
 /// The parts that can be removed from a file.
 enum class Part : std::uint8_t {
-    textures,     ///< TEXT; materials are left without them
-    materials,    ///< MATE, including local ones; submeshes are left without them
-    meshes,       ///< VECT, with submeshes, weights tracks and levels of detail
-    targets,      ///< TARG, with their weights in clips
-    clips,        ///< CYCL
-    markers,      ///< MARK
-    chains,       ///< IKCH and PULL
-    roles,        ///< ROLE
-    constraints,  ///< LIMT; by name: the name of a joint
-    lod,          ///< LODD
-    tangents,     ///< TANG, also of morph targets
-    colours,      ///< COLR
-    attributes,   ///< USER
-    extras,       ///< EXTR and MORE
-    extensions,   ///< EXTN
-    unknown       ///< chunks unknown to this version; by name: with this id
+    textures,       ///< TEXT; materials are left without them
+    materials,      ///< MATE, including local ones; submeshes are left without them
+    meshes,         ///< VECT, with submeshes, weights tracks and levels of detail
+    targets,        ///< TARG, with their weights in clips
+    clips,          ///< CYCL
+    markers,        ///< MARK
+    chains,         ///< IKCH and PULL
+    roles,          ///< ROLE
+    standing_pose,  ///< STND
+    constraints,    ///< LIMT; by name: the name of a joint
+    lod,            ///< LODD
+    tangents,       ///< TANG, also of morph targets
+    colours,        ///< COLR
+    attributes,     ///< USER
+    extras,         ///< EXTR and MORE
+    extensions,     ///< EXTN
+    unknown         ///< chunks unknown to this version; by name: with this id
 };
 
 struct Strip {
@@ -114,6 +115,9 @@ struct SetRole {
 
 /// Parses "hips=Pelvis", "tail:2=Tail3", and "jaw=": nobody has the role.
 Result<SetRole, Problem> parse_role(std::string_view text);
+
+/// Returns the file in which the first object's body stands like this.
+Edited set_standing_pose(Bytes file, const StandingPoseRecord& pose, std::span<const StandingRotationRecord> rotations);
 
 /// Returns the file in which the joint has the role, and nobody else; the role that it had before is free.
 Edited set_role(Bytes file, const SetRole& what, Log& log);

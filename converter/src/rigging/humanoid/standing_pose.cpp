@@ -1,0 +1,365 @@
+#include "standing_pose.h"
+
+#include "clip_rotations.h"
+#include "scene/evaluate.h"
+
+#include <bendy/format/standing_pose.h>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace bendy::converter {
+namespace {
+
+using Bone = HumanBone;
+
+constexpr glm::dvec3 kUp{0.0, 1.0, 0.0};
+constexpr double kUpright = 35.0;   // degrees, of trunk and legs
+constexpr double kBentKnee = 40.0;  // degrees
+constexpr double kUneven = 0.03;    // of the height, between the feet
+
+/// Degrees between two directions; 180 if one has none.
+double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+    const auto from = unit(a);
+    const auto to = unit(b);
+    return from && to ? degrees_of(0.5 * glm::distance(*from, *to)) : 180.0;
+}
+
+/// The height of the lowest of a leg's joints.
+double lowest_of_leg(const RestFrames& pose, const Humanoid& bones, HumanBone lower, HumanBone foot, HumanBone toes,
+                     const glm::dvec3& up) {
+    double lowest = glm::dot(up, pose.position(bones[lower]));
+    for (const HumanBone bone : {foot, toes}) {
+        if (bones.has(bone)) lowest = std::min(lowest, glm::dot(up, pose.position(bones[bone])));
+    }
+    return lowest;
+}
+
+glm::dvec3 foot_of(const RestFrames& pose, const Humanoid& bones, HumanBone lower, HumanBone foot) {
+    return pose.position(bones.has(foot) ? bones[foot] : bones[lower]);
+}
+
+}  // namespace
+
+bool Standing::is_upright() const {
+    return lean < kUpright && legs < kUpright && has_head_on_top;
+}
+
+bool Standing::stands() const {
+    return is_upright() && knees < kBentKnee && feet < kUneven;
+}
+
+double Standing::flaws() const {
+    const auto square = [](double flaw, double usual) { return flaw * flaw / (usual * usual); };
+    return square(lean, kUpright / 2.0) + square(legs, kUpright / 2.0) + square(knees, kBentKnee) +
+           square(feet, kUneven);
+}
+
+namespace {
+
+/// Where the body's ends are in a pose.
+struct Ends {
+    glm::dvec3 hips, head, tops, feet;  ///< tops: between the hip joints
+};
+
+std::optional<Ends> ends_of(const RestFrames& pose, const Humanoid& bones) {
+    for (const Bone bone : {Bone::hips, Bone::head, Bone::left_upper_leg, Bone::left_lower_leg, Bone::right_upper_leg,
+                            Bone::right_lower_leg}) {
+        if (!bones.has(bone)) return std::nullopt;
+    }
+    const glm::dvec3 left = foot_of(pose, bones, Bone::left_lower_leg, Bone::left_foot);
+    const glm::dvec3 right = foot_of(pose, bones, Bone::right_lower_leg, Bone::right_foot);
+    const glm::dvec3 tops =
+        0.5 * (pose.position(bones[Bone::left_upper_leg]) + pose.position(bones[Bone::right_upper_leg]));
+    return Ends{pose.position(bones[Bone::hips]), pose.position(bones[Bone::head]), tops, 0.5 * (left + right)};
+}
+
+}  // namespace
+
+std::optional<Standing> judge_stand(const RestFrames& pose, const Humanoid& bones, const glm::dvec3& up) {
+    const std::optional<Ends> ends = ends_of(pose, bones);
+    if (!ends) return std::nullopt;
+    const double size = glm::distance(ends->head, ends->hips) + glm::distance(ends->tops, ends->feet);
+    if (!std::isfinite(size) || !(size > 0.0)) return std::nullopt;
+    Standing standing;
+    standing.lean = angle_between(ends->head - ends->hips, up);
+    standing.legs = angle_between(ends->tops - ends->feet, up);
+    const double on_left = lowest_of_leg(pose, bones, Bone::left_lower_leg, Bone::left_foot, Bone::left_toes, up);
+    const double on_right = lowest_of_leg(pose, bones, Bone::right_lower_leg, Bone::right_foot, Bone::right_toes, up);
+    standing.feet = std::abs(on_left - on_right) / size;
+    standing.has_head_on_top = true;
+    for (const Bone bone : {Bone::hips, Bone::spine, Bone::chest, Bone::upper_chest, Bone::neck}) {
+        if (bones.has(bone) && glm::dot(up, pose.position(bones[bone]) - ends->head) > 0.0)
+            standing.has_head_on_top = false;
+    }
+    standing.knees = 0.0;
+    for (const auto& [upper, lower, foot] :
+         {std::array{Bone::left_upper_leg, Bone::left_lower_leg, Bone::left_foot},
+          std::array{Bone::right_upper_leg, Bone::right_lower_leg, Bone::right_foot}}) {
+        if (!bones.has(foot)) continue;
+        const glm::dvec3 knee = pose.position(bones[lower]);
+        standing.knees = std::max(standing.knees,
+                                  angle_between(knee - pose.position(bones[upper]), pose.position(bones[foot]) - knee));
+    }
+    return standing;
+}
+
+// --- candidates
+
+std::optional<CandidatePose> find_bind_pose(const Scene& scene) {
+    constexpr double kSame = 0.99996;  // cosine of half a degree: of half the angle
+    std::vector<std::optional<Rotation>> bound(scene.joints.size());
+    for (const Mesh& mesh : scene.meshes) {
+        for (std::size_t entry = 0; entry < mesh.palette.joints.size(); ++entry) {
+            const glm::dmat3 to_joint(glm::dmat4(mesh.palette.inverse_bind[entry]));
+            if (!(std::abs(glm::determinant(to_joint)) > 1e-12)) continue;
+            const glm::dmat3 axes = glm::inverse(to_joint);
+            const auto x = unit(axes[0]);
+            const auto y = x ? unit_across(axes[1], *x) : std::nullopt;
+            if (!y || glm::determinant(axes) < 0.0) continue;
+            auto& place = bound[mesh.palette.joints[entry]];
+            if (!place) place = rotation_of_axes(glm::dmat3(*x, *y, glm::cross(*x, *y)));
+        }
+    }
+    CandidatePose pose{StandingEvidence::bind_pose, rest_of(scene)};
+    std::vector<Rotation> turns;  // in model space
+    bool differs = false;
+    for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+        const std::uint32_t parent = scene.joints[joint].parent;
+        const Rotation above = parent == kNone ? Rotation(1.0, 0.0, 0.0, 0.0) : turns[parent];
+        glm::vec4& local = pose.locals[joint].rotation;
+        const Rotation rest = to_rotation({local.x, local.y, local.z, local.w});
+        turns.push_back(bound[joint] ? *bound[joint] : glm::normalize(above * rest));
+        if (!bound[joint]) continue;
+        const Rotation own = glm::normalize(glm::conjugate(above) * turns.back());
+        differs = differs || std::abs(glm::dot(own, rest)) < kSame;
+        local = {own.x, own.y, own.z, own.w};
+    }
+    return differs ? std::optional(std::move(pose)) : std::nullopt;
+}
+
+namespace {
+
+/// The pose of a clip at a time; properties that are not animated rest.
+std::vector<Transform> pose_at(const Scene& scene, const Clip& clip, double seconds) {
+    std::vector<Transform> locals = rest_of(scene);
+    std::vector<double> value;
+    for (const Track& track : clip.tracks) {
+        if (track.path == TrackPath::weights || track.target >= locals.size()) continue;
+        evaluate_track(track, seconds, value);
+        Transform& local = locals[track.target];
+        const auto number = [&](std::size_t k) { return static_cast<float>(value[k]); };
+        if (track.path == TrackPath::rotation) {
+            local.rotation = {number(0), number(1), number(2), number(3)};
+        } else {
+            (track.path == TrackPath::translation ? local.translation : local.scale) = {number(0), number(1),
+                                                                                        number(2)};
+        }
+    }
+    return locals;
+}
+
+}  // namespace
+
+namespace {
+
+/// Calls visit(locals) for frames of all clips, spread over each.
+template <class Visit>
+void visit_frames(const Scene& scene, Visit visit) {
+    constexpr std::size_t kMostFrames = 240;
+    constexpr std::size_t kMostOfClip = 24;
+    constexpr std::size_t kMostJoints = 2'000'000;  // in all frames together
+    std::size_t frames = std::min(kMostFrames, kMostJoints / std::max<std::size_t>(scene.joints.size(), 1));
+    for (const Clip& clip : scene.clips) {
+        if (clip.tracks.empty()) continue;
+        const ClipSpan span = span_of(clip);
+        const std::size_t steps = span.end > span.start ? kMostOfClip : 1;
+        for (std::size_t step = 0; step < steps && frames > 0; ++step, --frames) {
+            const double share = steps == 1 ? 0.0 : static_cast<double>(step) / static_cast<double>(steps - 1);
+            visit(pose_at(scene, clip, span.at(share)));
+        }
+    }
+}
+
+}  // namespace
+
+std::optional<CandidatePose> find_standing_frame(const Scene& scene, const Humanoid& bones) {
+    std::optional<CandidatePose> best;
+    double least = std::numeric_limits<double>::infinity();
+    visit_frames(scene, [&](std::vector<Transform> locals) {
+        const std::optional<Standing> standing = judge_stand(RestFrames(scene, locals), bones, kUp);
+        if (!standing || !standing->is_upright() || standing->flaws() >= least) return;
+        least = standing->flaws();
+        best = CandidatePose{StandingEvidence::clip, std::move(locals)};
+    });
+    return best;
+}
+
+namespace {
+
+/// X left, Y up, Z forward of a body, to model space.
+std::optional<Rotation> axes_of(const RestFrames& pose, const Humanoid& bones, const glm::dvec3& up) {
+    glm::dvec3 across(0.0);
+    for (const HumanBone bone : {HumanBone::left_upper_leg, HumanBone::left_upper_arm}) {
+        const HumanBone other = converter::mirrored(bone);
+        if (bones.has(bone) && bones.has(other)) across += pose.position(bones[bone]) - pose.position(bones[other]);
+    }
+    const auto left = unit_across(across, up);
+    if (!left) return std::nullopt;
+    return rotation_of_axes(glm::dmat3(*left, up, glm::cross(*left, up)));
+}
+
+}  // namespace
+
+std::optional<CandidatePose> turn_upright(const Scene& scene, const Humanoid& bones, CandidatePose pose) {
+    const RestFrames frames(scene, pose.locals);
+    const std::optional<Ends> ends = ends_of(frames, bones);
+    const auto trunk = ends ? unit(ends->head - ends->hips) : std::nullopt;
+    const auto legs = ends ? unit(ends->tops - ends->feet) : std::nullopt;
+    const auto up = trunk && legs ? unit(*trunk + *legs) : std::nullopt;
+    const auto axes = up ? axes_of(frames, bones, *up) : std::nullopt;
+    if (!axes) return std::nullopt;
+    const Rotation turn = glm::conjugate(*axes);
+    for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+        if (scene.joints[joint].parent != kNone) continue;
+        Transform& local = pose.locals[joint];
+        const glm::vec4& q = local.rotation;
+        const Rotation turned = glm::normalize(turn * to_rotation({q.x, q.y, q.z, q.w}));
+        local.rotation = {turned.x, turned.y, turned.z, turned.w};
+        local.translation = glm::vec3(turn * glm::dvec3(local.translation));
+    }
+    return pose;
+}
+
+// --- the scene's
+
+namespace {
+
+Humanoid humanoid_of(const std::vector<RoleRecord>& roles) {
+    Humanoid bones;
+    for (const RoleRecord& record : roles) {
+        if (record.role < static_cast<std::uint16_t>(kFirstChainRole))
+            bones[static_cast<Role>(record.role)] = record.joint;
+    }
+    return bones;
+}
+
+/// The rest pose with the joints that have a role turned as they are in another pose: STND's meaning.
+std::vector<Transform> with_turns(const Scene& scene, const RestFrames& pose) {
+    std::vector<Transform> locals = rest_of(scene);
+    std::vector<Rotation> turns;  // in model space
+    auto role = scene.roles.begin();
+    for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+        const std::uint32_t parent = scene.joints[joint].parent;
+        const Rotation above = parent == kNone ? Rotation(1.0, 0.0, 0.0, 0.0) : turns[parent];
+        glm::vec4& q = locals[joint].rotation;
+        if (role != scene.roles.end() && role->joint == joint) {
+            const Rotation own = glm::normalize(glm::conjugate(above) * pose.turn(joint));
+            q = {own.x, own.y, own.z, own.w};
+            ++role;
+        }
+        turns.push_back(glm::normalize(above * to_rotation({q.x, q.y, q.z, q.w})));
+    }
+    return locals;
+}
+
+/// The heights of the lowest and the highest joint with a role.
+std::pair<double, double> heights_of(const Scene& scene, const RestFrames& pose) {
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -lowest;
+    for (const RoleRecord& role : scene.roles) {
+        lowest = std::min(lowest, pose.position(role.joint).y);
+        highest = std::max(highest, pose.position(role.joint).y);
+    }
+    return {lowest, highest};
+}
+
+/// The ground of the clips if they move the body: where its lowest joint is in most frames; in jumps it is higher.
+std::optional<double> ground_of_clips(const Scene& scene, std::uint32_t hips) {
+    const auto moves_hips = [&](const Track& track) {
+        if (track.path != TrackPath::translation) return false;
+        std::uint32_t joint = hips;
+        while (joint != kNone && joint != track.target) joint = scene.joints[joint].parent;
+        return joint != kNone;
+    };
+    const bool is_moved = std::any_of(scene.clips.begin(), scene.clips.end(), [&](const Clip& clip) {
+        return std::any_of(clip.tracks.begin(), clip.tracks.end(), moves_hips);
+    });
+    if (!is_moved) return std::nullopt;
+    std::vector<double> lows;
+    visit_frames(scene, [&](const std::vector<Transform>& locals) {
+        lows.push_back(heights_of(scene, RestFrames(scene, locals)).first);
+    });
+    const auto quarter = lows.begin() + static_cast<std::ptrdiff_t>(lows.size() / 4);
+    std::nth_element(lows.begin(), quarter, lows.end());
+    return lows.empty() ? std::nullopt : std::optional(*quarter);
+}
+
+std::optional<StandingPose> make_standing_pose(const Scene& scene, const Humanoid& bones, const CandidatePose& from) {
+    const RestFrames turned(scene, from.locals);
+    const RestFrames pose(scene, with_turns(scene, turned));
+    const auto axes = axes_of(pose, bones, kUp);
+    if (!axes) return std::nullopt;
+    StandingPose standing;
+    for (const RoleRecord& role : scene.roles)
+        standing.rotations.push_back(standing_rotation(role.joint, to_record(turned.turn(role.joint))));
+    const auto [lowest, highest] = heights_of(scene, pose);
+    constexpr double kNear = 0.05;  // of the height: feet dip into the ground
+    const double of_clips = ground_of_clips(scene, bones[Bone::hips]).value_or(lowest);
+    const double ground = std::abs(of_clips - lowest) < kNear * (highest - lowest) ? lowest : of_clips;
+    if (!std::isfinite(highest - lowest) || !std::isfinite(ground)) return std::nullopt;
+    standing.pose.axes = to_record(*axes);
+    standing.pose.ground = static_cast<float>(ground);
+    standing.pose.height = static_cast<float>(highest - lowest);
+    standing.pose.evidence = static_cast<std::uint8_t>(from.evidence);
+    return standing;
+}
+
+bool does_stand(const Scene& scene, const Humanoid& bones, const std::optional<CandidatePose>& pose) {
+    if (!pose) return false;
+    const std::optional<Standing> standing = judge_stand(RestFrames(scene, pose->locals), bones, kUp);
+    return standing && standing->stands();
+}
+
+/// The pose to trust, if the rest pose does not stand.
+std::optional<CandidatePose> find_stand(const Scene& scene, const Humanoid& bones) {
+    std::optional<CandidatePose> pose = find_bind_pose(scene);
+    if (pose) pose = turn_upright(scene, bones, *std::move(pose));
+    if (does_stand(scene, bones, pose)) return pose;
+    pose = turn_upright(scene, bones, {StandingEvidence::rest_pose, rest_of(scene)});
+    if (does_stand(scene, bones, pose)) return pose;
+    return find_standing_frame(scene, bones);
+}
+
+std::string why_not(const Standing& standing) {
+    const auto degrees = [](double angle) { return std::to_string(static_cast<int>(angle + 0.5)) + " degrees"; };
+    if (!standing.is_upright()) return "its trunk is " + degrees(standing.lean) + " from upright";
+    if (standing.knees >= kBentKnee) return "a knee is bent by " + degrees(standing.knees);
+    return "one foot is above the other";
+}
+
+}  // namespace
+
+void find_standing_pose(Scene& scene, Report& report) {
+    if (scene.standing_pose || scene.roles.empty()) return;
+    const Humanoid bones = humanoid_of(scene.roles);
+    const std::optional<Standing> rest = judge_stand(RestFrames(scene), bones, kUp);
+    if (!rest || rest->stands()) return;
+    if (const auto found = find_stand(scene, bones)) scene.standing_pose = make_standing_pose(scene, bones, *found);
+    if (scene.standing_pose) return;
+    report.warn(
+        "the body does not stand in its rest pose (" + why_not(*rest) +
+        "), nor in a clip: clips are retargeted to and from it as if it did. `bendy edit --stand CLIP@SECONDS` or "
+        "--stand-as FILE says how it stands");
+}
+
+}  // namespace bendy::converter

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "humanoid.h"
+#include "scene/rest_frames.h"
+
+#include <bendy/converter/report.h>
+#include <bendy/converter/scene.h>
+
+#include <glm/vec3.hpp>
+
+#include <optional>
+#include <vector>
+
+// Finds the pose in which a human stands. The rest pose says anything: some rest lying, with all bones along one axis,
+// or in the first frame of a walk.
+namespace bendy::converter {
+
+/// How well a human stands in a pose, about an axis that points up.
+struct Standing {
+    double lean = 180.0;   ///< degrees from up to the line from hips to head
+    double legs = 180.0;   ///< degrees from up to the line from the feet to the hip joints
+    double knees = 180.0;  ///< degrees by which the more bent knee is off straight
+    double feet = 1.0;     ///< how far one foot's lowest joint is above the other's, as a share of the height
+    bool has_head_on_top = false;
+
+    /// Whether trunk and legs are upright, whatever knees and feet do.
+    [[nodiscard]] bool is_upright() const;
+    /// Whether it stands on both feet.
+    [[nodiscard]] bool stands() const;
+    /// 0 for a body that stands perfectly, more for less.
+    [[nodiscard]] double flaws() const;
+};
+
+/// Nothing if hips, head or the bones of a leg are missing, or have no length.
+std::optional<Standing> judge_stand(const RestFrames& pose, const Humanoid& bones, const glm::dvec3& up);
+
+/// A pose in which a body may stand: the transform of each joint relative to its parent.
+struct CandidatePose {
+    StandingEvidence evidence = StandingEvidence::told;
+    std::vector<Transform> locals;
+};
+
+/// The pose of the skins' bind matrices; joints that no skin binds rest. Nothing if that is the rest pose.
+std::optional<CandidatePose> find_bind_pose(const Scene& scene);
+
+/// The frame of all clips in which the human stands best with Y up. Nothing if there is none in which it is upright.
+std::optional<CandidatePose> find_standing_frame(const Scene& scene, const Humanoid& bones);
+
+/// The pose turned as a whole so that the body's own up is Y and it faces Z. Nothing if it has no up or no left.
+std::optional<CandidatePose> turn_upright(const Scene& scene, const Humanoid& bones, CandidatePose pose);
+
+/// Sets Scene::standing_pose for a human whose rest pose does not stand; warns if no other pose stands either. Leaves
+/// the one that the scene has. Bind matrices are trusted first, then the rest pose turned upright, then the clips.
+void find_standing_pose(Scene& scene, Report& report);
+
+}  // namespace bendy::converter

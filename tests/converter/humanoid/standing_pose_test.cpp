@@ -1,0 +1,214 @@
+#include "rigging/humanoid/standing_pose.h"
+
+#include "humanoid_gltf.h"
+#include "rigging/humanoid/find_roles.h"
+
+#include <bendy/converter/build_chunks.h>
+#include <bendy/format/document.h>
+#include <bendy/format/standing_pose.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bendy::converter::standing_pose_test {
+namespace {
+
+using namespace test;
+
+const glm::dvec3 kUp{0.0, 1.0, 0.0};
+
+Scene human() {
+    return *HumanoidGltf().build().import();
+}
+
+glm::dquat rotation_in(const Transform& local) {
+    return {local.rotation.w, local.rotation.x, local.rotation.y, local.rotation.z};
+}
+
+void set_rotation(Transform& local, const glm::dquat& q) {
+    local.rotation = {q.x, q.y, q.z, q.w};
+}
+
+/// Turns the hips, and with them the whole body.
+void tip_over(Scene& scene, const glm::dquat& turn) {
+    Transform& hips = scene.joints[joint_named(scene, "hips")].rest;
+    set_rotation(hips, glm::normalize(turn * rotation_in(hips)));
+}
+
+glm::dquat about(const glm::dvec3& axis, double degrees) {
+    return glm::angleAxis(degrees * kTestDegree, axis);
+}
+
+void add_key(Clip& clip, std::uint32_t joint, const Transform& local) {
+    Track rotation{TrackPath::rotation, Interpolation::linear, joint, 4, {0.0f}, {}};
+    for (int k = 0; k < 4; ++k) rotation.values.push_back(local.rotation[k]);
+    clip.tracks.push_back(rotation);
+}
+
+/// A clip of one frame with the rotations of this pose.
+Clip frame_of(const std::vector<Transform>& locals) {
+    Clip clip;
+    clip.name = "Stand";
+    for (std::uint32_t joint = 0; joint < locals.size(); ++joint) add_key(clip, joint, locals[joint]);
+    return clip;
+}
+
+void find(Scene& scene, Report& report) {
+    find_roles(scene, kNone, report);
+    find_standing_pose(scene, report);
+    Report of_building;
+    EXPECT_TRUE(validate(build_chunks(scene, "test", of_building)).empty());
+}
+
+/// Where the joints are by the rule of spec/chunks/STND.md, computed from the records alone.
+std::vector<glm::dvec3> places_in_stand(const Scene& scene) {
+    std::vector<glm::dquat> turns;
+    std::vector<glm::dvec3> places;
+    for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+        const std::uint32_t parent = scene.joints[joint].parent;
+        const glm::dquat above = parent == kNone ? glm::dquat(1, 0, 0, 0) : turns[parent];
+        glm::dquat turn = above * rotation_in(scene.joints[joint].rest);
+        for (const StandingRotationRecord& record : scene.standing_pose->rotations) {
+            const std::array<float, 4> q = rotation_of(record);
+            if (record.joint == joint) turn = {q[3], q[0], q[1], q[2]};
+        }
+        turns.push_back(turn);
+        const glm::dvec3 offset(scene.joints[joint].rest.translation);
+        places.push_back(parent == kNone ? offset : places[parent] + above * offset);
+    }
+    return places;
+}
+
+double degrees_from_up(const Scene& scene, const char* from, const char* to) {
+    const std::vector<glm::dvec3> places = places_in_stand(scene);
+    const glm::dvec3 way = glm::normalize(places[joint_named(scene, to)] - places[joint_named(scene, from)]);
+    return std::acos(std::clamp(glm::dot(way, kUp), -1.0, 1.0)) / kTestDegree;
+}
+
+StandingEvidence evidence_of(const Scene& scene) {
+    return static_cast<StandingEvidence>(scene.standing_pose->pose.evidence);
+}
+
+TEST(StandingPose, IsNotStoredWhereTheRestPoseStands) {
+    for (const double arms : {0.0, 70.0}) {
+        Scene scene = human();
+        Transform& arm = scene.joints[joint_named(scene, "leftUpperArm")].rest;
+        set_rotation(arm, rotation_in(arm) * about({0.6, 0.0, 0.8}, arms));
+        Report report;
+        find(scene, report);
+        EXPECT_FALSE(scene.standing_pose.has_value());
+        EXPECT_EQ(warned(report, "does not stand"), 0u);
+    }
+}
+
+TEST(StandingPose, IsTheRestPoseTurnedUprightIfThatLies) {
+    for (const glm::dquat& turn : {about({1, 0, 0}, -90.0), about({0, 0, 1}, 90.0), about({1, 0, 0}, 180.0),
+                                   about(glm::normalize(glm::dvec3(1, 2, 3)), 130.0)}) {
+        Scene scene = human();
+        tip_over(scene, turn);
+        Report report;
+        find(scene, report);
+        ASSERT_TRUE(scene.standing_pose.has_value());
+        EXPECT_EQ(evidence_of(scene), StandingEvidence::rest_pose);
+        EXPECT_EQ(scene.standing_pose->rotations.size(), scene.roles.size());
+        EXPECT_LT(degrees_from_up(scene, "hips", "head"), 3.0);
+        EXPECT_LT(degrees_from_up(scene, "leftFoot", "leftUpperLeg"), 3.0);
+        EXPECT_NEAR(scene.standing_pose->pose.height, 1.58, 0.01);
+        EXPECT_EQ(warned(report, "does not stand"), 0u);
+    }
+}
+
+TEST(StandingPose, SaysWhereTheBodyLooks) {
+    Scene scene = human();
+    tip_over(scene, about({1, 0, 0}, -90.0));
+    Report report;
+    find(scene, report);
+    ASSERT_TRUE(scene.standing_pose.has_value());
+    const std::array<float, 4>& q = scene.standing_pose->pose.axes;
+    const glm::dquat axes(q[3], q[0], q[1], q[2]);
+    const std::vector<glm::dvec3> places = places_in_stand(scene);
+    const glm::dvec3 left = places[joint_named(scene, "leftHand")] - places[joint_named(scene, "rightHand")];
+    const glm::dvec3 toes = places[joint_named(scene, "leftToes")] - places[joint_named(scene, "leftFoot")];
+    EXPECT_GT(glm::dot(glm::normalize(left), axes * glm::dvec3(1, 0, 0)), 0.999);
+    EXPECT_GT(glm::dot(axes * glm::dvec3(0, 1, 0), kUp), 0.999);
+    EXPECT_GT(glm::dot(glm::normalize(toes), axes * glm::dvec3(0, 0, 1)), 0.8);
+}
+
+TEST(StandingPose, BindMatricesAreTrustedFirst) {
+    Scene scene = human();
+    Mesh mesh;
+    mesh.influences = 1;
+    mesh.positions.resize(3);
+    mesh.bones.assign(3, 0);
+    mesh.weights.assign(3, 1.0f);
+    const RestFrames frames(scene);
+    for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+        mesh.palette.joints.push_back(joint);
+        const glm::dmat4 bind =
+            glm::translate(glm::dmat4(1.0), frames.position(joint)) * glm::mat4_cast(frames.turn(joint));
+        mesh.palette.inverse_bind.emplace_back(glm::inverse(bind));
+    }
+    scene.meshes.push_back(mesh);
+    Transform& knee = scene.joints[joint_named(scene, "leftLowerLeg")].rest;
+    set_rotation(knee, about({1, 0, 0}, 80.0) * rotation_in(knee));
+    tip_over(scene, about({1, 0, 0}, -90.0));
+    scene.roles.clear();
+    const Humanoid bones = [&] {
+        Humanoid found;
+        for (const auto& [bone, name] : {std::pair{HumanBone::hips, "hips"},
+                                         {HumanBone::head, "head"},
+                                         {HumanBone::left_upper_leg, "leftUpperLeg"},
+                                         {HumanBone::left_lower_leg, "leftLowerLeg"},
+                                         {HumanBone::left_foot, "leftFoot"},
+                                         {HumanBone::right_upper_leg, "rightUpperLeg"},
+                                         {HumanBone::right_lower_leg, "rightLowerLeg"},
+                                         {HumanBone::right_foot, "rightFoot"}})
+            found[bone] = joint_named(scene, name);
+        return found;
+    }();
+    const std::optional<CandidatePose> bound = find_bind_pose(scene);
+    ASSERT_TRUE(bound.has_value());
+    const std::optional<Standing> standing = judge_stand(RestFrames(scene, bound->locals), bones, kUp);
+    ASSERT_TRUE(standing.has_value());
+    EXPECT_TRUE(standing->stands());
+    EXPECT_FALSE(judge_stand(RestFrames(scene), bones, kUp)->stands());
+}
+
+TEST(StandingPose, IsTheFrameOfAClipIfTheRestPoseIsNoBody) {
+    Scene scene = human();
+    const std::vector<Transform> standing = rest_of(scene);
+    std::vector<Transform> crouching = standing;
+    Transform& knee = crouching[joint_named(scene, "leftLowerLeg")];
+    set_rotation(knee, rotation_in(knee) * about({0.0, 0.6, 0.8}, 100.0));
+    // Without rotations the bones point anywhere; the clips turn them into a body.
+    for (Joint& joint : scene.joints) set_rotation(joint.rest, glm::dquat(1, 0, 0, 0));
+    scene.clips = {frame_of(crouching), frame_of(standing)};
+    Report report;
+    find(scene, report);
+    EXPECT_FALSE(scene.roles.empty());
+    ASSERT_TRUE(scene.standing_pose.has_value());
+    EXPECT_EQ(evidence_of(scene), StandingEvidence::clip);
+    EXPECT_LT(degrees_from_up(scene, "hips", "head"), 3.0);
+    EXPECT_LT(degrees_from_up(scene, "leftLowerLeg", "leftUpperLeg"), 3.0);
+}
+
+TEST(StandingPose, ThatNobodyKnowsIsSaid) {
+    Scene scene = human();
+    Transform& knee = scene.joints[joint_named(scene, "leftLowerLeg")].rest;
+    const RestFrames frames(scene);
+    const glm::dquat above = frames.turn(joint_named(scene, "leftUpperLeg"));
+    set_rotation(knee, glm::conjugate(above) * about({1, 0, 0}, 70.0) * above * rotation_in(knee));
+    Report report;
+    find(scene, report);
+    EXPECT_FALSE(scene.standing_pose.has_value());
+    EXPECT_EQ(warned(report, "a knee is bent by 7"), 1u);
+    EXPECT_EQ(warned(report, "--stand CLIP@SECONDS"), 1u);
+}
+
+}  // namespace
+}  // namespace bendy::converter::standing_pose_test

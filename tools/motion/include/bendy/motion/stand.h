@@ -1,0 +1,20 @@
+#pragma once
+
+#include <bendy/edit/edit.h>
+#include <bendy/format/byte_reader.h>
+
+#include <string>
+
+// The pose in which a character's body stands (Model::standing_pose), told by a person.
+namespace bendy::motion {
+
+/// Returns the file in which the body stands as at a time of a clip, in seconds, with Y up. A problem: no such clip, no
+/// joint with a role, or a body of which left or right is not known.
+/// \param clip  see edit::find_named
+edit::Edited stand_as_in_clip(Bytes file, const std::string& clip, double seconds, edit::Log& log);
+
+/// Returns the file in which the body stands as another file's character rests, joints by their names. A problem also:
+/// a joint with a role that the other file does not have.
+edit::Edited stand_as(Bytes file, Bytes other, edit::Log& log);
+
+}  // namespace bendy::motion
