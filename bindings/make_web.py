@@ -72,8 +72,9 @@ def called(structs, source):
 def main():
     api = describe.read(sys.argv[1])
     folder = Path(sys.argv[2])
-    structs = Structs(api)
-    names, bases = called(structs, "".join(Path(source).read_text(encoding="utf-8") for source in sys.argv[3:]))
+    source = "".join(Path(source).read_text(encoding="utf-8") for source in sys.argv[3:])
+    structs = Structs(api, source)
+    names, bases = called(structs, source)
     functions = [function for function in api.functions.values() if function.name in names]
     bindings = ["// Made from bendy.h by bindings/make_web.py.", "import type { Handle, Runtime } from '../runtime.js';", "",
                 *raw_types(functions), "function orNull(index: number): number | null {", "  return index === 0xffffffff ? null : index;",

@@ -53,7 +53,7 @@ def bare(name):
 
 
 def name_of(function, handle):
-    elsewhere = re.search(r"elsewhere: (\w+)", function.doc)
+    elsewhere = re.search(r"(?:^|[;.] )elsewhere: (\w+)", function.doc)  # a clause of its own: not "for skinning elsewhere: the bones"
     name, prefix = bare(function.name), bare(handle or "bendy_") + "_"
     return elsewhere[1] if elsewhere else name[len(prefix):] if name.startswith(prefix) else name
 

@@ -55,11 +55,26 @@ class Layout:
         self.size = -(-self.size // self.alignment) * self.alignment
 
 
-class Structs:
-    """read: the names of the structs that a function fills. given: those that callers give as objects."""
+def members_that_call(source):
+    """For each function of bendy.h, the members of TypeScript's classes in whose bodies it is called; those that are private do not count."""
+    members, member = {}, ""
+    for line in source.splitlines():
+        begun = re.match(r"  (?:static |async |get |set )*([#\w]+)(?:<\w+>)?\(", line)
+        if begun or line.startswith("}"):
+            member = begun[1] if begun else ""
+        for function in re.findall(r"\.(bendy_\w+)\(", line):
+            if member and member != "constructor" and not member.startswith("#"):
+                members.setdefault(function, set()).add(member)
+    return members
 
-    def __init__(self, api):
+
+class Structs:
+    """read: the names of the structs that a function fills. given: those that callers give as objects.
+    source: the TypeScript that calls the functions."""
+
+    def __init__(self, api, source=""):
         self.api = api
+        self.callers = members_that_call(source)
         self.layouts = {}
         for struct in api.structs.values():
             self.layouts[struct.name] = Layout(struct, self.layouts)
@@ -74,6 +89,12 @@ class Structs:
 
     # ---- Documentation
 
+    def method_of(self, name):
+        """What TypeScript has of a function: the method that calls it, if there is one, or the one that follows from its name."""
+        function = self.api.functions[name]
+        callers = self.callers.get(name, ())
+        return next(iter(callers)) if len(callers) == 1 else camel(name_of(function, class_of(function, self.api)))
+
     def phrase(self, doc, is_flag=False, is_inverse=False):
         """A comment of the header for readers of TypeScript."""
         doc = re.sub(r"(^|[;.]? ?)elsewhere: not \w+$", "", doc)
@@ -84,9 +105,8 @@ class Structs:
         doc = re.sub(r"(^|, )or BENDY_NONE$|^or NULL$", "", doc)
         doc = doc.replace("or BENDY_NONE: ", "null: ").replace("BENDY_NONE", "null").replace("NULL", "null")
         doc = re.sub(r"\bBENDY_\w+", lambda found: f"`{self.values.get(found[0], found[0])}`", doc)
-        functions = self.api.functions
-        doc = re.sub(r"\bbendy_\w+", lambda found: f"`{camel(name_of(functions[found[0]], class_of(functions[found[0]], self.api)))}`"
-                     if found[0] in functions else pascal(short(found[0])), doc).strip()
+        doc = re.sub(r"\bbendy_\w+", lambda found: f"`{self.method_of(found[0])}`" if found[0] in self.api.functions
+                     else pascal(short(found[0])), doc).strip()
         first = doc[:1].upper() if re.match(r"[a-z]{2}|a ", doc) else doc[:1]  # not of "sRGB" and "x y z"
         return doc and first + doc[1:] + ("" if doc[-1] in ".!?" else ".")
 

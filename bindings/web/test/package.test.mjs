@@ -47,6 +47,14 @@ test('the package says whose it is, and has its licence and those of others', ()
   assert.equal(licences, `${readFileSync(join(repository, 'LICENSE'), 'utf8')}\n${execFileSync('python3', ['-B', join(repository, 'scripts/notices.py'), 'page'])}`);
 });
 
+test('a word in backquotes in a comment that is made from bendy.h is a name of the package, or a value', () => {
+  const declarations = packed.filter((path) => path.endsWith('.d.ts') && !path.includes('ts5.6')).map((path) => readFileSync(join(web, path), 'utf8'));
+  const names = new Set(declarations.flatMap((text) => text.replace(/\/\*[^]*?\*\//g, '').match(/\w+/g)));
+  const unknown = (text) => [...text.matchAll(/\/\*[^]*?\*\//g)].flatMap(([comment]) => [...comment.matchAll(/`(\w+)`/g)]).map(([, word]) => word).filter((word) => !names.has(word));
+  assert.deepEqual(unknown('/** Number of matrices for `for`, as `palette` needs them, in `seconds`. */'), ['for']);
+  for (const name of ['bindings', 'classes']) assert.deepEqual(unknown(readFileSync(join(web, `dist/generated/${name}.d.ts`), 'utf8')), [], name);
+});
+
 /** Compiles a module of TypeScript with a compiler of test/compilers, libraries checked too; returns what it says. */
 function compile(compiler, code, packages = []) {
   const project = mkdtempSync(join(folder, 'types-'));
