@@ -76,7 +76,8 @@ def main():
     structs = Structs(api, source)
     names, bases = called(structs, source)
     functions = [function for function in api.functions.values() if function.name in names]
-    bindings = ["// Made from bendy.h by bindings/make_web.py.", "import type { Handle, Runtime } from '../runtime.js';", "",
+    bindings = ["// Made from bendy.h by bindings/make_web.py.", "import { checkNumber, type PointLike, type RotationLike } from '../numbers.js';",
+                "import type { Handle, Runtime } from '../runtime.js';", "",
                 *raw_types(functions), "function orNull(index: number): number | null {", "  return index === 0xffffffff ? null : index;",
                 "}", "", *words(structs), *structs.all(), *calls(structs, functions)]
     exports = ["_malloc", "_free", *(f"_{function.name}" for function in functions)]

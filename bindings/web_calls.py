@@ -2,7 +2,7 @@
 
 import re
 
-from web_structs import NUMBERS, camel, is_text, pascal, short
+from web_structs import NUMBERS, array_type, camel, is_text, pascal, short
 
 SCRATCH = 512  # bytes of Runtime.scratch that a call may use
 ARRAYS = {"float": ("Float32Array<ArrayBuffer>", "Floats"), "double": ("Float64Array<ArrayBuffer>", "Doubles"),
@@ -86,7 +86,8 @@ class Call:
             self.passed.append(f"runtime.word({camel(short(one.enum))}Words, {name}, '{name}')")
         else:
             self.given.append((name, "number", False))
-            self.passed.append(f"BigInt({name})" if one.type.name in ("uint64_t", "int64_t") else name)
+            self.passed.append(f"BigInt({name})" if one.type.name in ("uint64_t", "int64_t") else
+                               f"checkNumber({name}, '{name}')" if one.type.name in ("float", "double") else name)
 
     def give_number(self, name, one):
         at = self.place(8)
@@ -98,7 +99,7 @@ class Call:
     def take_array(self, name, one):
         at = self.place(NUMBERS[one.type.name][0] * one.count)
         put = f"runtime.put{ARRAYS[one.type.name][1]}({at}, {name}, {one.count}, '{name}')"
-        self.given.append((name, "ArrayLike<number>", one.may_be_null))
+        self.given.append((name, array_type(one.count), one.may_be_null))
         self.passed.append(f"{name} == null ? 0 : {put}" if one.may_be_null else put)
 
     def give_array(self, name, one):

@@ -30,6 +30,11 @@ def is_text(field):
     return field.type.name == "char" and field.type.is_const and field.type.is_pointer
 
 
+def array_type(count):
+    """The type of an array that callers give: three numbers are a point or a direction, four a unit quaternion."""
+    return {3: "PointLike", 4: "RotationLike"}.get(count, "ArrayLike<number>")
+
+
 def comment(text, indent=""):
     return [f"{indent}/** {text} */"] if text else []
 
@@ -222,7 +227,7 @@ class Structs:
         if field.count:
             put = "putDoubles" if field.type.name == "double" else "putFloats"
             numbers = ", ".join(map(self.literal, default))
-            return "ArrayLike<number>", "", f"runtime.{put}({at}, {value} ?? [{numbers}], {field.count}, '{key}');"
+            return array_type(field.count), "", f"runtime.{put}({at}, {value} ?? [{numbers}], {field.count}, '{key}');"
         default = self.literal(default)
         if field.enum:
             words = f"{camel(short(field.enum))}Words"
@@ -237,7 +242,7 @@ class Structs:
             return kind, "", f"runtime.putWhole({at}, {value} ?? 0xffffffff, '{key}');"
         if field.type.name in ("uint32_t", "size_t"):
             return "number", default, f"runtime.putWhole({at}, {value} ?? {default}, '{key}');"
-        return "number", default, f"view.set{NUMBERS[field.type.name][1]}({at}, {value} ?? {default}, true);"
+        return "number", default, f"view.set{NUMBERS[field.type.name][1]}({at}, checkNumber({value} ?? {default}, '{key}'), true);"
 
     def writer(self, struct):
         name, layout = pascal(struct.name), self.layouts[struct.name]
@@ -262,11 +267,15 @@ class Structs:
                 members += self.field_comment(field, f"{absent} if not given." if absent else "")
                 members.append(f"  {key}: {kind};" if is_needed else f"  {key}?: {kind} | undefined;")
                 lines.append(line)
+        names = [re.match(r"  (\w+)\??: ", member)[1] for member in members if not member.startswith("  /**")]
+        listed = [] if struct.name in self.read else [
+            "/** The names of its members. */",
+            f"export const {camel(short(struct.name))}Names: Record<keyof {name}, true> = {{ {', '.join(one + ': true' for one in names)} }};", ""]
         more = ", beyond: number" if beyond else ""
         view = ["  const { view } = runtime;"] if any("view." in line for line in lines) else []
         return [*([] if struct.name in self.read else self.interface(struct, members)),
                 f"export function write{name}(runtime: Runtime, at: number, given: {self.given_type(struct)}{more}): number {{",
-                *view, *(f"  {line}" for line in lines), "  return at;", "}", ""]
+                *view, *(f"  {line}" for line in lines), "  return at;", "}", "", *listed]
 
     def all(self):
         lines = []

@@ -1,7 +1,8 @@
-import type { BendyBindingOptions } from './generated/bindings.js';
+import { type BendyBindingOptions, bindingOptionsNames } from './generated/bindings.js';
 import type { Key } from './items.js';
 import type { MorphTarget } from './mesh.js';
 import type { Model } from './model.js';
+import { checkOptions, optionNames } from './options.js';
 import type { Joint } from './parts.js';
 import { Handle } from './runtime.js';
 
@@ -15,6 +16,9 @@ export interface BindingOptions extends Omit<BendyBindingOptions, 'translations'
   rootScale?: number;
 }
 
+const { translations: _, ...others } = bindingOptionsNames;
+const bindingNames = optionNames<BindingOptions>({ ...others, rootOnly: true });
+
 /**
  * Maps the clips of one model to another by the names of joints and morph targets: for files that hold only a skeleton and clips,
  * shared by many characters. The rest poses should be the same. Both models must be of one runtime.
@@ -27,6 +31,7 @@ export class Binding extends Handle {
 
   /** Throws NOT_FOUND, BAD_ARGUMENT, OUT_OF_MEMORY. */
   constructor(animated: Model, posed: Model, options: BindingOptions = {}) {
+    checkOptions('Binding', options, bindingNames);
     const { runtime } = animated;
     const { rootOnly, root, ...others } = options;
     const handle = runtime.calls.bendy_binding_new(animated, posed, {

@@ -5,7 +5,11 @@ import { checkIndex, type Key } from './items.js';
 import type { LevelOfDetail } from './lod.js';
 import type { Mesh } from './mesh.js';
 import type { Model } from './model.js';
+import { checkNumber } from './numbers.js';
+import { checkOptions, optionNames } from './options.js';
 import { type FloatBuffer, none, OfModel } from './runtime.js';
+
+const crowdNames = optionNames<{ positions?: boolean }>({ positions: true });
 
 /**
  * Many characters of one model, each at a time of a clip, in one call: their palettes, one after another, as a texture of a GPU
@@ -24,6 +28,7 @@ export class Crowd extends OfModel {
 
   /** Makes a crowd at rest. Throws OUT_OF_MEMORY; BAD_ARGUMENT for a negative size. */
   constructor(model: Model, size: number, options: { positions?: boolean } = {}) {
+    checkOptions('Crowd', options, crowdNames);
     if (!Number.isInteger(size) || size < 0) throw new BendyError('bad_argument', `a crowd cannot have ${size} characters`);
     const { runtime } = model;
     const { calls, functions } = runtime;
@@ -69,7 +74,7 @@ export class Crowd extends OfModel {
     const { view } = this.runtime;
     if (lod !== undefined) this.model.checkOwn(lod, 'level of detail');
     view.setUint32(at + crowdMemberLayout.clip, clip === null ? none : this.model.clips.number(clip), true);
-    view.setFloat32(at + crowdMemberLayout.seconds, seconds, true);
+    view.setFloat32(at + crowdMemberLayout.seconds, checkNumber(seconds, 'seconds'), true);
     view.setUint32(at + crowdMemberLayout.lod, lod?.handle ?? 0, true);
     if (lod === undefined) this.#lods.delete(member);
     else this.#lods.set(member, lod);

@@ -12,8 +12,11 @@ export type ErrorKind = Exclude<Status, 'ok'> | 'disposed' | 'stopped' | 'conver
 /** @internal What a caller gave in the place of something else, in the words of a message. */
 export function described(given: unknown): string {
   if (given instanceof Promise) return 'a promise: await it';
-  if (typeof given === 'object' && given !== null) return `an object of type ${Object.prototype.toString.call(given).slice(8, -1)}`;
-  return typeof given === 'string' ? JSON.stringify(given) : String(given);
+  if (typeof given === 'object' && given !== null) {
+    const { name } = (given.constructor ?? {}) as { name?: unknown };
+    return `an object of type ${typeof name === 'string' && name !== '' ? name : Object.prototype.toString.call(given).slice(8, -1)}`;
+  }
+  return typeof given === 'string' ? `a text, ${JSON.stringify(given)}` : typeof given === 'function' ? 'a function' : String(given);
 }
 
 /** Every error that this package throws. */

@@ -18,6 +18,7 @@ export { hasSimd, init, type LoadOptions, loadRuntime } from './load.js';
 export { LevelOfDetail } from './lod.js';
 export { Mesh, MorphTarget, type StoredArray, Stream } from './mesh.js';
 export { Model, type OpenOptions } from './model.js';
+export type { PointLike, RotationLike } from './numbers.js';
 export type {
   Chain,
   Constraint,
@@ -33,7 +34,7 @@ export type {
   Vector3,
 } from './parts.js';
 export { CrossFade, ease, Fade, Playback, type Playing, type PlayOptions } from './play.js';
-export { Pose, type ReachOptions, type ReachRequest, type ReachResult, SkinnedVertices, type SkinOptions, type SocketOptions } from './pose.js';
+export { Pose, type ReachOptions, type ReachRequest, type ReachResult, SkinnedVertices, type SkinOptions, type SocketOptions, type TransformParts } from './pose.js';
 export { Retarget, type Retargeted, type RetargetOptions, RetargetState } from './retarget.js';
 export { blendMotions, composeMotions, motionMatrix, type RootAxes, type RootMotion, RootPath } from './root_motion.js';
 export { Handle, Runtime } from './runtime.js';

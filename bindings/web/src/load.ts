@@ -1,6 +1,7 @@
 import { BendyError } from './errors.js';
 import { compileModule, ioError } from './fetch.js';
 import type { Functions } from './generated/bindings.js';
+import { checkOptions, optionNames } from './options.js';
 import { Runtime } from './runtime.js';
 
 /** Options for loading the module. */
@@ -14,6 +15,8 @@ export interface LoadOptions {
   /** Whether to use SIMD; by default, if the engine has it. With `wasm`, it says which instructions that module uses. */
   simd?: boolean;
 }
+
+const loadNames = optionNames<LoadOptions>({ wasm: true, simd: true });
 
 // (func (result v128) (i8x16.splat (i32.const 0))) and an instruction that uses it.
 const simdModule = new Uint8Array([
@@ -66,6 +69,7 @@ export function imports(memory: () => WebAssembly.Memory): WebAssembly.Imports {
  * engine cannot compile it, for instance because a content security policy forbids it.
  */
 export async function loadRuntime(options: LoadOptions = {}): Promise<Runtime> {
+  checkOptions('init', options, loadNames);
   const simd = options.simd ?? hasSimd();
   const module = await compile(options.wasm, simd);
   let functions: Functions;

@@ -6,6 +6,8 @@ import type { BendyOpenOptions } from './generated/bindings.js';
 import { checkIndex, indexOwn, Items, type Key } from './items.js';
 import { init, loadedRuntime } from './load.js';
 import { Mesh, type MorphTarget } from './mesh.js';
+import type { RotationLike } from './numbers.js';
+import { checkOptions, optionNames } from './options.js';
 import {
   type Chain,
   type Constraint,
@@ -28,6 +30,9 @@ export interface OpenOptions extends Omit<BendyOpenOptions, 'sumsLater' | 'copie
   /** The instance of the module to open it in; the default one if not given. */
   runtime?: Runtime;
 }
+
+/** @internal */
+export const openNames = optionNames<OpenOptions>({ object: true, checkSums: true, runtime: true });
 
 /** An opened file in the module's memory, with its bytes: closed and released with the last object that uses it. */
 class OpenFile {
@@ -95,6 +100,7 @@ export class Model extends Handle {
    * file or module cannot be fetched; OUT_OF_MEMORY; BAD_ARGUMENT for anything else.
    */
   static async open(source: ArrayBuffer | Uint8Array | string | URL, options: OpenOptions = {}): Promise<Model> {
+    checkOptions('Model.open', options, openNames);
     const isAddress = typeof source === 'string' || source instanceof URL;
     const [bytes, runtime] = await Promise.all([isAddress ? fetchBytes(source) : source, options.runtime ?? init()]);
     return Model.openSync(bytes, { ...options, runtime });
@@ -102,6 +108,7 @@ export class Model extends Handle {
 
   /** As `open`, synchronously. Throws the same errors, and BAD_ARGUMENT before `init` is done. */
   static openSync(bytes: ArrayBuffer | Uint8Array, options: OpenOptions = {}): Model {
+    checkOptions('Model.openSync', options, openNames);
     const runtime = options.runtime ?? loadedRuntime();
     const content = asBytes(bytes);
     try {
@@ -262,7 +269,7 @@ export class Model extends Handle {
    * Returns the legal rotation nearest to a local rotation of a constraint's joint, and the angle between the two in radians: 0 if
    * the rotation is legal. Throws BAD_ARGUMENT for a constraint of another model, and for a rotation that is not a unit quaternion.
    */
-  clampRotation(constraint: Constraint | number, rotation: ArrayLike<number>): { rotation: Quaternion; violation: number } {
+  clampRotation(constraint: Constraint | number, rotation: RotationLike): { rotation: Quaternion; violation: number } {
     const { calls } = this.runtime;
     const number = this.#constraintNumber(constraint);
     const relative = calls.bendy_to_constraint_space(this, number, rotation);

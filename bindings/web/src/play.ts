@@ -5,6 +5,8 @@ import { MadeFade, MadePlayback } from './generated/classes.js';
 import type { Key } from './items.js';
 import { loadedRuntime } from './load.js';
 import type { Model } from './model.js';
+import { checkNumber } from './numbers.js';
+import { checkOptions, optionNames } from './options.js';
 import { Pose } from './pose.js';
 import { OfModel, type Runtime } from './runtime.js';
 
@@ -59,6 +61,8 @@ export interface PlayOptions {
   playback?: Playback;
 }
 
+const playNames = optionNames<PlayOptions>({ fade: true, easing: true, playback: true });
+
 /**
  * Clips of one model, each of which fades in over those before it. A clip that is interrupted keeps playing beneath the next one,
  * so nothing jumps. At most four play at a time. Only `play` allocates.
@@ -80,9 +84,10 @@ export class CrossFade extends OfModel {
 
   /** Starts a clip; the first one is visible in full at once. Throws NOT_FOUND, BAD_ARGUMENT. */
   play(clip: Key<Clip>, options: PlayOptions = {}): this {
+    checkOptions('play', options, playNames);
     const number = this.model.clips.number(clip);
     const { fade = 0, easing = 'smooth', playback } = options;
-    this.runtime.calls.bendy_crossfade_play(this, number, playback, fade, easing);
+    this.runtime.calls.bendy_crossfade_play(this, number, playback, checkNumber(fade, 'fade'), easing);
     return this;
   }
 

@@ -1,5 +1,5 @@
 import type { Binding } from './binding.js';
-import type { BodyReach, BodyReached, EffectorTarget } from './body_reach.js';
+import { type BodyReach, type BodyReached, type EffectorTarget, targetNames } from './body_reach.js';
 import type { Clip } from './clip.js';
 import { BendyError } from './errors.js';
 import {
@@ -8,7 +8,11 @@ import {
   type BendyReachResult,
   type BendySkinOptions,
   type BendySocket,
+  reachOptionsNames,
+  reachRequestNames,
   readBendyTransform,
+  skinOptionsNames,
+  socketNames,
   transformLayout,
   verticesLayout,
 } from './generated/bindings.js';
@@ -17,21 +21,28 @@ import type { Key } from './items.js';
 import type { LevelOfDetail } from './lod.js';
 import type { Mesh } from './mesh.js';
 import type { Model } from './model.js';
+import { checkNumbers, type PointLike, type RotationLike } from './numbers.js';
+import { checkOptions, optionNames } from './options.js';
 import type { Chain, Joint, Transform } from './parts.js';
 import type { FloatBuffer } from './runtime.js';
 
 /** Options of `Pose.reach`. The chain gives the defaults. */
 export interface ReachOptions extends BendyReachOptions {
   /** The desired orientation of the tip: unit quaternion x, y, z, w, model space. */
-  rotation?: ArrayLike<number>;
+  rotation?: RotationLike;
 }
+
+const reachNames = optionNames<ReachOptions>({ ...reachOptionsNames, rotation: true });
 
 /** A chain that `Pose.reachChains` moves, and its target. */
 export interface ReachRequest extends Omit<BendyReachRequest, 'chain' | 'position'> {
   chain: Key<Chain>;
   /** x, y, z in metres, model space. */
-  position: ArrayLike<number>;
+  position: PointLike;
 }
+
+const requestNames = optionNames<ReachRequest>(reachRequestNames);
+const nestedNames = optionNames<BendyReachOptions>(reachOptionsNames);
 
 /** The result of `Pose.reach`. */
 export interface ReachResult extends BendyReachResult {
@@ -55,11 +66,28 @@ export interface SkinOptions extends Omit<BendySkinOptions, 'mesh'> {
   lod?: LevelOfDetail;
 }
 
+const skinNames = optionNames<SkinOptions>({ ...skinOptionsNames, normals: true, tangents: true });
+
 /** Options of `Pose.socket`. */
 export interface SocketOptions extends Omit<BendySocket, 'joint'> {
   /** 16 floats: from model space to world space; the identity if not given. */
   world?: ArrayLike<number>;
 }
+
+const { joint: _, ...socketOptions } = socketNames;
+const namesOfSocket = optionNames<SocketOptions>({ ...socketOptions, world: true });
+
+/** Parts of a joint's local transform. */
+export interface TransformParts {
+  /** Unit quaternion. */
+  rotation?: RotationLike | undefined;
+  /** Metres. */
+  translation?: PointLike | undefined;
+  scale?: PointLike | undefined;
+}
+
+const transformNames = optionNames<TransformParts>({ rotation: true, translation: true, scale: true });
+const transformAdvice = { position: 'translation', quaternion: 'rotation' };
 
 const localFloats = 10;
 
@@ -163,7 +191,7 @@ export class Pose extends MadePose {
     if (mask === undefined) return 0;
     const count = this.model.joints.length;
     if (mask.length !== count) throw new BendyError('bad_argument', `the mask has ${mask.length} numbers for ${count} joints`);
-    this.#mask.array.set(mask);
+    this.#mask.array.set(checkNumbers(mask, 'mask'));
     return this.#mask.at;
   }
 
@@ -190,7 +218,8 @@ export class Pose extends MadePose {
   }
 
   /** Sets parts of a joint's local transform. Throws NOT_FOUND; BAD_ARGUMENT for a rotation that is not a unit quaternion. */
-  setLocal(joint: Key<Joint>, transform: Partial<Readonly<Transform>>): this {
+  setLocal(joint: Key<Joint>, transform: TransformParts): this {
+    checkOptions('setLocal', transform, transformNames, transformAdvice);
     const { runtime } = this;
     const { calls, spare } = runtime;
     const number = this.model.joints.number(joint);
@@ -219,7 +248,7 @@ export class Pose extends MadePose {
     if (locals.length !== array.length) {
       throw new BendyError('bad_argument', `${locals.length} numbers for ${count} joints: ${array.length} are needed`);
     }
-    if (locals !== array) array.set(locals);
+    if (locals !== array) array.set(checkNumbers(locals, 'locals'));
     this.runtime.calls.bendy_set_local(this, 0, count, this.#locals.at);
     return this;
   }
@@ -237,17 +266,18 @@ export class Pose extends MadePose {
     if (!Number.isInteger(first) || first < 0 || first + weights.length > all) {
       throw new BendyError('bad_argument', `there are ${all} morph targets`);
     }
-    this.#weights.array.set(weights, first);
+    this.#weights.array.set(checkNumbers(weights, 'weights'), first);
     this.runtime.calls.bendy_set_weights(this, first, weights.length, this.#weights.at + 4 * first);
     return this;
   }
 
   /**
-   * Inverse kinematics: moves an IK chain so that its tip reaches a position (x, y, z in metres, model space) within its joints'
+   * Inverse kinematics: moves an IK chain so that its tip reaches a position (x, y, z in metres, model space, as an array or an object) within its joints'
    * constraints, starting from the current pose. A target that is not reached is a result, not an error. Throws NOT_FOUND,
    * BAD_ARGUMENT.
    */
-  reach(chain: Key<Chain>, target: ArrayLike<number>, options: ReachOptions = {}): ReachResult {
+  reach(chain: Key<Chain>, target: PointLike, options: ReachOptions = {}): ReachResult {
+    checkOptions('reach', options, reachNames);
     const number = this.model.chains.number(chain);
     return withReached(this.runtime.calls.bendy_reach(this, number, target, options.rotation, options));
   }
@@ -258,7 +288,11 @@ export class Pose extends MadePose {
    * nothing is moved. Throws NOT_FOUND, BAD_ARGUMENT.
    */
   reachChains(requests: readonly ReachRequest[]): ReachResult[] {
-    const numbered = requests.map((request) => ({ ...request, chain: this.model.chains.number(request.chain) }));
+    const numbered = requests.map((request) => {
+      checkOptions('a request', request, requestNames);
+      if (request.options) checkOptions('reachChains', request.options, nestedNames);
+      return { ...request, chain: this.model.chains.number(request.chain) };
+    });
     return this.runtime.calls.bendy_reach_chains(this, numbered).map(withReached);
   }
 
@@ -269,6 +303,7 @@ export class Pose extends MadePose {
    * as before.
    */
   reachBody(body: BodyReach, targets: readonly EffectorTarget[]): BodyReached {
+    for (const target of targets) checkOptions('a target', target, targetNames);
     const { isReached: reached, ...result } = this.runtime.calls.bendy_reach_body(this, body, targets);
     return { ...result, reached };
   }
@@ -297,6 +332,7 @@ export class Pose extends MadePose {
    * same object every time. Throws NOT_FOUND, BAD_ARGUMENT, OUT_OF_MEMORY.
    */
   skin(options: SkinOptions = {}): SkinnedVertices {
+    checkOptions('skin', options, skinNames);
     const { runtime, model } = this;
     const { normals, tangents, mesh: key, ...others } = options;
     const vertexCount = model.vertexCount;
@@ -334,6 +370,7 @@ export class Pose extends MadePose {
    * space. Throws NOT_FOUND, BAD_ARGUMENT.
    */
   socket(joint: Key<Joint> | null, options: SocketOptions = {}): Float32Array<ArrayBuffer> {
+    checkOptions('socket', options, namesOfSocket);
     const { world, ...socket } = options;
     const number = joint === null ? null : this.model.joints.number(joint);
     return this.runtime.calls.bendy_socket_matrix(this, { ...socket, joint: number }, world);

@@ -1,11 +1,14 @@
-import type { BendyRetargeted, BendyRetargetOptions } from './generated/bindings.js';
+import { type BendyRetargeted, type BendyRetargetOptions, retargetOptionsNames } from './generated/bindings.js';
 import { MadeRetarget, MadeRetargetState } from './generated/classes.js';
 import type { Model } from './model.js';
+import { checkOptions, optionNames } from './options.js';
 import type { Pose } from './pose.js';
 import type { Runtime } from './runtime.js';
 
 /** Options of a Retarget. */
 export interface RetargetOptions extends BendyRetargetOptions {}
+
+const retargetNames = optionNames<RetargetOptions>(retargetOptionsNames);
 
 /** What had to give way in a frame: the result of `Retarget.apply`. */
 export interface Retargeted extends BendyRetargeted {}
@@ -34,6 +37,7 @@ export class Retarget extends MadeRetarget {
    * says what is missing; OUT_OF_MEMORY.
    */
   constructor(source: Model, target: Model, options: RetargetOptions = {}) {
+    checkOptions('Retarget', options, retargetNames);
     const { calls, functions } = target.runtime;
     super(target, calls.bendy_retarget_new(source, target, options), functions.bendy_retarget_free);
     this.own(source.useFile());

@@ -1,8 +1,9 @@
-import type { BendyRootAxes, BendyRootMotion } from './generated/bindings.js';
+import { type BendyRootAxes, type BendyRootMotion, rootAxesNames } from './generated/bindings.js';
 import { MadeRootPath } from './generated/classes.js';
 import type { Key } from './items.js';
 import { loadedRuntime } from './load.js';
 import type { Model } from './model.js';
+import { checkOptions, optionNames } from './options.js';
 import type { Joint } from './parts.js';
 import type { CrossFade, Playback } from './play.js';
 
@@ -11,6 +12,8 @@ export interface RootMotion extends BendyRootMotion {}
 
 /** Which parts of the root's movement move the character; the rest stays in the pose. */
 export interface RootAxes extends BendyRootAxes {}
+
+const axesNames = optionNames<RootAxes>(rootAxesNames);
 
 /** Applies `motion`, given in the axes of `before`, after it. Each frame: `place = composeMotions(place, motion)`. */
 export function composeMotions(before: RootMotion, motion: RootMotion): RootMotion {
@@ -31,6 +34,7 @@ export function motionMatrix(motion: RootMotion): Float64Array {
 export class RootPath extends MadeRootPath {
   /** Throws NOT_FOUND, BAD_ARGUMENT, OUT_OF_MEMORY. */
   constructor(model: Model, joint: Key<Joint>, axes: RootAxes = {}) {
+    checkOptions('RootPath', axes, axesNames);
     const { calls, functions } = model.runtime;
     super(model, calls.bendy_root_path_new(model, model.joints.number(joint), axes), functions.bendy_root_path_free);
   }

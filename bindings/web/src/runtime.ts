@@ -2,6 +2,7 @@
 import { BendyError, described, type ErrorKind } from './errors.js';
 import { Calls, errorLayout, type Functions, readBendyError } from './generated/bindings.js';
 import type { Model } from './model.js';
+import { component, type Numbers } from './numbers.js';
 
 /** "None", for any index that a function of the module takes or returns. */
 export const none = 0xffffffff;
@@ -155,24 +156,22 @@ export class Runtime {
   /** @internal */
   putWhole(at: number, number: number, name: string): void {
     if (!Number.isInteger(number) || number < 0 || number > none) {
-      throw new BendyError('bad_argument', `${name} is ${number}, not a whole number from 0`);
+      throw new BendyError('bad_argument', `${name} is ${described(number)}, not a whole number from 0`);
     }
     this.view.setUint32(at, number, true);
   }
 
   /** @internal Writes numbers to an address. */
-  putFloats(at: number, numbers: ArrayLike<number>, count: number, name: string): number {
-    checkLength(numbers, count, name);
+  putFloats(at: number, numbers: Numbers, count: number, name: string): number {
     const { view } = this;
-    for (let i = 0; i < count; ++i) view.setFloat32(at + 4 * i, numbers[i]!, true);
+    for (let i = 0; i < count; ++i) view.setFloat32(at + 4 * i, component(numbers, i, count, name), true);
     return at;
   }
 
   /** @internal */
-  putDoubles(at: number, numbers: ArrayLike<number>, count: number, name: string): number {
-    checkLength(numbers, count, name);
+  putDoubles(at: number, numbers: Numbers, count: number, name: string): number {
     const { view } = this;
-    for (let i = 0; i < count; ++i) view.setFloat64(at + 8 * i, numbers[i]!, true);
+    for (let i = 0; i < count; ++i) view.setFloat64(at + 8 * i, component(numbers, i, count, name), true);
     return at;
   }
 
@@ -217,12 +216,6 @@ export class Runtime {
   private outOfMemory(): BendyError {
     return new BendyError('out_of_memory', 'there is not enough memory');
   }
-}
-
-function checkLength(numbers: ArrayLike<number>, count: number, name: string): void {
-  if (numbers?.length === count) return;
-  const found = typeof numbers?.length === 'number' ? `has ${numbers.length} numbers` : `is ${described(numbers)}`;
-  throw new BendyError('bad_argument', `${name} ${found}, not an array of ${count} numbers`);
 }
 
 /** Numbers in the module's memory that are viewed repeatedly. */

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { BodyReach, LevelOfDetail, Model } from '../dist/index.js';
+import { Binding, BodyReach, CrossFade, Crowd, LevelOfDetail, loadRuntime, Model, Retarget, RootPath } from '../dist/index.js';
 import { bendy, convert, corpusFile, difference, example, extent, folder, plain, read, simd } from './helpers.mjs';
 
 // The kernels round differently: a vertex is a sum of up to eight products of floats with an error of 2^-24 each, and so are
@@ -366,3 +366,97 @@ test('a socket follows its joint', async () => {
   model.dispose();
 });
 
+
+/** Has the form of a vector of three.js: its length is a method. */
+class Vector {
+  constructor(x, y, z, w) {
+    Object.assign(this, w === undefined ? { x, y, z } : { x, y, z, w });
+  }
+
+  length() {
+    return 1;
+  }
+}
+const mannequin = Model.openSync(read(example('mannequin')), { runtime: simd });
+const bad = (message) => ({ name: 'BendyError', code: 'BAD_ARGUMENT', message });
+
+test('points and rotations are arrays or objects with x, y, z and w', () => {
+  const [place, turn] = [[0.3, 1.2, 0.4], [0, 0.6, 0, 0.8]];
+  const both = (use) => {
+    const [array, object] = [mannequin.pose(), mannequin.pose()];
+    use(array, place, turn);
+    use(object, new Vector(...place), new Vector(...turn));
+    assert.notDeepEqual(array.locals, mannequin.pose().locals);
+    assert.deepEqual(array.locals, object.locals);
+  };
+  both((pose, point, rotation) => pose.reach('IK_LeftArm', point, { rotation, pole: point }));
+  both((pose, position, rotation) => pose.reachChains([{ chain: 'IK_LeftArm', position, rotation }]));
+  both((pose, translation, rotation) => pose.setLocal('mixamorig:Head', { translation, rotation, scale: translation }));
+  const hands = new BodyReach(mannequin, [{ joint: 'mixamorig:LeftHand', tipOffset: new Vector(0, 0.1, 0) }]);
+  both((pose, position, rotation) => pose.reachBody(hands, [{ position, rotation }]));
+  const [constraint] = mannequin.constraints;
+  assert.deepEqual(mannequin.clampRotation(constraint, turn), mannequin.clampRotation(constraint, new Vector(...turn)));
+});
+
+test('what is no point, or no number, is named', () => {
+  const pose = mannequin.pose();
+  const before = pose.locals.slice();
+  class Ball {
+    position = new Vector(0, 1, 0);
+  }
+  for (const [target, message] of [
+    [new Ball(), /^position is an object of type Ball, not \[x, y, z\] or an object with x, y, z; did you mean its position\?$/],
+    ['123', /^position is a text, "123", not \[x, y, z\]/],
+    [undefined, /^position is missing, not \[x, y, z\]/],
+    [null, /^position is null, /],
+    [[0, 1], /^position has 2 numbers, not \[x, y, z\]/],
+    [['0.3', '1.2', '0.4'], /^position\[0\] is a text, "0\.3", not a number$/],
+    [[0, , 1], /^position\[1\] is missing: a number is expected$/],
+    [{ x: 0, y: '1', z: 0 }, /^position is an object of type Object, /],
+    [{ x: 0, y: 1 }, /^position is an object of type Object, /],
+    [Object.create(null), /^position is an object of type Object, /],
+    [[0, NaN, 1], /finite/],
+  ]) {
+    assert.throws(() => pose.reach('IK_LeftArm', target), bad(message));
+  }
+  assert.throws(() => pose.reach('IK_LeftArm', [0, 1, 0], { influence: '0.5' }), bad(/^influence is a text, "0\.5", not a number$/));
+  assert.throws(() => pose.reach('IK_LeftArm', [0, 1, 0], { iterations: '5' }), bad(/^iterations is a text, "5", not a whole number/));
+  assert.throws(() => pose.reach('IK_LeftArm', [0, 1, 0], { rotation: new Vector(0, 0, 1) }), bad(/^rotation is an object of type Vector, not \[x, y, z, w\]/));
+  assert.throws(() => pose.sample('Walk', '0.3'), bad(/^seconds is a text, "0\.3", not a number$/));
+  assert.throws(() => pose.sample('Walk'), bad(/^seconds is missing/));
+  assert.throws(() => pose.blend(mannequin.pose(), '1'), bad(/^weight is a text/));
+  assert.throws(() => pose.blend(mannequin.pose(), 1, Array.from(mannequin.joints, () => '1')), bad(/^mask\[0\] is a text, "1"/));
+  assert.throws(() => pose.setLocals(Array.from(before, String)), bad(/^locals\[0\] is a text/));
+  assert.throws(() => pose.modelMatrices([1]), bad(/^world has 1 numbers, not an array of 16 numbers$/));
+  assert.deepEqual(pose.locals, before);
+});
+
+test('options that do not exist are refused', async () => {
+  const pose = mannequin.pose();
+  const point = [0.3, 1.2, 0.4];
+  const body = new BodyReach(mannequin, [{ joint: 'mixamorig:LeftHand' }]);
+  for (const [use, message] of [
+    [() => pose.reach('IK_LeftArm', point, { obeyConstraint: false }), /^reach has no option "obeyConstraint"; did you mean obeyConstraints\?$/],
+    [() => pose.reach('IK_LeftArm', point, { obey_constraints: false }), /did you mean obeyConstraints\?$/],
+    [() => pose.reach('IK_LeftArm', point, 0.5), /^the options of reach are 0\.5, not an object$/],
+    [() => pose.reachChains([{ chain: 'IK_LeftArm', target: point }]), /^a request has no option "target"; it has chain, position, rotation, options$/],
+    [() => pose.reachChains([{ chain: 'IK_LeftArm', position: point, options: { influences: 1 } }]), /^reachChains has no option "influences"; did you mean influence\?$/],
+    [() => pose.reachBody(body, [{ position: point, weights: 1 }]), /^a target has no option "weights"; did you mean weight\?$/],
+    [() => new BodyReach(mannequin, [{ joint: 0, offset: point }]), /^an effector has no option "offset"/],
+    [() => new BodyReach(mannequin, [{ joint: 0 }], { roots: 0 }), /^BodyReach has no option "roots"; did you mean root\?$/],
+    [() => pose.setLocal('mixamorig:Head', { position: point }), /^setLocal has no option "position"; did you mean translation\?$/],
+    [() => pose.skin({ normal: true }), /^skin has no option "normal"; did you mean normals\?$/],
+    [() => pose.socket('mixamorig:Head', { keepSize: true }), /^socket has no option "keepSize"; it has offset, keepsSize, world$/],
+    [() => new Crowd(mannequin, 1, { position: true }), /^Crowd has no option "position"; did you mean positions\?$/],
+    [() => new CrossFade(mannequin).play('Walk', { seconds: 1 }), /^play has no option "seconds"; it has fade, easing, playback$/],
+    [() => new CrossFade(mannequin).play('Walk', { fade: '1' }), /^fade is a text, "1", not a number$/],
+    [() => new RootPath(mannequin, 'mixamorig:Hips', { turns: true }), /^RootPath has no option "turns"; did you mean turn\?$/],
+    [() => new Retarget(mannequin, mannequin, { plantFeet: true }), /^Retarget has no option "plantFeet"; it has /],
+    [() => new Binding(mannequin, mannequin, { translations: 'all' }), /^Binding has no option "translations"; it has /],
+    [() => Model.openSync(new Uint8Array(1), { checksums: false, runtime: simd }), /^Model\.openSync has no option "checksums"; did you mean checkSums\?$/],
+  ]) {
+    assert.throws(use, bad(message));
+  }
+  await assert.rejects(Model.open(new Uint8Array(1), { Runtime: simd }), bad(/^Model\.open has no option "Runtime"; did you mean runtime\?$/));
+  await assert.rejects(loadRuntime({ simd: false, module: 1 }), bad(/^init has no option "module"; it has wasm, simd$/));
+});
