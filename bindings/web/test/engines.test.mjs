@@ -61,6 +61,18 @@ function byPalette(mesh, palette) {
   return result;
 }
 
+test('what is no option, and use after dispose, are refused', async () => {
+  const scene = babylonScene(true);
+  const bad = (message) => ({ code: 'BAD_ARGUMENT', message });
+  await assert.rejects(babylon.loadBendy(mannequin, scene, { skins: 'wasm' }), bad(/^loadBendy has no option "skins"; did you mean skin\?$/));
+  const character = await babylon.loadBendy(mannequin, scene);
+  assert.throws(() => character.play('Walk', { loops: false }), bad(/^play has no option "loops"; did you mean loop\?$/));
+  assert.throws(() => character.play('Walk', { speed: '2' }), bad(/^speed is a text, "2", not a number$/));
+  assert.throws(() => character.update(), bad(/^seconds is missing/));
+  character.dispose();
+  for (const use of [() => character.update(0), () => character.play('Walk')]) assert.throws(use, { kind: 'disposed', message: 'this character has been disposed' });
+});
+
 for (const [name, bytes] of files) {
   test(`Babylon.js: ${name}`, async () => {
     const scene = babylonScene(true);

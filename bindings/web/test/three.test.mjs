@@ -14,7 +14,7 @@ import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { clone } from 'three/addons/utils/SkeletonUtils.js';
 import { BendyError, Model, Retarget, RetargetState } from '../dist/index.js';
-import { BendyAnimator, BendyLoader, cloneCharacter, setLevelOfDetail } from '../dist/three/index.js';
+import { BendyAnimator, BendyCrowd, BendyLoader, cloneCharacter, setLevelOfDetail } from '../dist/three/index.js';
 
 const repository = fileURLToPath(new URL('../../../', import.meta.url));
 const program = process.env.BENDY_PROGRAM ?? path.join(repository, 'build/release/cli/bendy');
@@ -334,10 +334,41 @@ describe('BendyAnimator', { skip }, () => {
     assert.throws(() => new BendyAnimator(Promise.resolve(character)), bad(/the result of BendyLoader, .* found a promise: await it/));
     assert.throws(() => new BendyAnimator(character.scene), bad(/the result of BendyLoader, .* found an object/));
     const animator = new BendyAnimator(character);
-    for (const target of [undefined, [0, 1, 0], new THREE.Object3D()]) {
-      assert.throws(() => animator.reach(character.chains[0], target), bad(/the target is .*, not a point \{ x, y, z \}/));
+    for (const [target, found] of [[undefined, 'missing'], ['123', 'a text, "123"'], [new THREE.Object3D(), 'an object of type Object3D']]) {
+      assert.throws(() => animator.reach(character.chains[0], target), bad(new RegExp(`^target is ${found}, not \\[x, y, z\\] or an object`)));
+    }
+    assert.throws(() => animator.reach(character.chains[0], new THREE.Object3D()), bad(/did you mean its position\?$/));
+    assert.throws(() => animator.reach(character.chains[0], [0, 1, 0], { obeyConstraint: false }), bad(/did you mean obeyConstraints\?$/));
+    assert.throws(() => animator.play(0, { loops: false }), bad(/^play has no option "loops"; did you mean loop\?$/));
+    assert.throws(() => animator.crossFade(0, '1'), bad(/^fade is a text, "1", not a number$/));
+    assert.throws(() => animator.update(), bad(/^seconds is missing/));
+    assert.throws(() => new BendyAnimator(character, { joint: 'needed' }), bad(/^BendyAnimator has no option "joint"; did you mean joints\?$/));
+    const crowd = new BendyCrowd(character, 1);
+    assert.throws(() => crowd.play(0, 0, { offsets: 1 }), bad(/^play has no option "offsets"; did you mean offset\?$/));
+    assert.throws(() => crowd.update(), bad(/^seconds is missing/));
+    crowd.dispose();
+    assert.throws(() => crowd.update(0), { kind: 'disposed', message: 'this BendyCrowd has been disposed' });
+    animator.dispose();
+    for (const use of [() => animator.update(0), () => animator.play(0), () => animator.reach(0, [0, 1, 0]), () => animator.sample(0, 0), () => animator.stop(), () => animator.apply()]) {
+      assert.throws(use, { kind: 'disposed', message: 'this BendyAnimator has been disposed' });
     }
     animator.dispose();
+  });
+
+  it('takes targets, poles and rotations as arrays and as objects', async () => {
+    const character = await loadBendy('models/cesium_man.gltf', '--auto-rig');
+    character.scene.position.set(1, 2, 3);
+    const [array, object] = [new BendyAnimator(character), new BendyAnimator(character)];
+    const [target, rotation] = [new THREE.Vector3(1.3, 3.2, 3.4), new THREE.Quaternion(0, 0.6, 0, 0.8)];
+    array.reach('LeftArm', target.toArray(), { pole: target.toArray(), rotation: rotation.toArray() });
+    object.reach('LeftArm', target, { pole: target, rotation });
+    assert.deepEqual(array.pose.locals, object.pose.locals);
+    assert.notDeepEqual(array.pose.locals, character.model.pose().locals);
+  });
+
+  it('is refused an address that is none', async () => {
+    await assert.rejects(new BendyLoader().loadAsync(), { name: 'BendyError', code: 'BAD_ARGUMENT', message: /the address of the file is missing/ });
+    await assert.rejects(new BendyLoader().loadAsync(new Uint8Array(4)), { code: 'BAD_ARGUMENT', message: /is an object of type Uint8Array: .*parseAsync takes bytes/ });
   });
 
   it('reaches within the limits', async () => {

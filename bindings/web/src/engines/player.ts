@@ -1,5 +1,8 @@
 // What the adapters for Babylon.js and PlayCanvas share: a model that plays, and which meshes an engine can skin by itself.
-import { type Clip, CrossFade, type Image, type Key, type Mesh, Model, type OpenOptions, type PlayOptions, Playback, type Pose, type Texture } from '../index.js';
+import { BendyError, type Clip, CrossFade, type Image, type Key, type Mesh, Model, type OpenOptions, type PlayOptions, Playback, type Pose, type Texture } from '../index.js';
+import { openNames } from '../model.js';
+import { checkNumber } from '../numbers.js';
+import { checkOptions, optionNames } from '../options.js';
 
 /** A file: its bytes, or its address. */
 export type Source = ArrayBuffer | Uint8Array | string | URL;
@@ -21,6 +24,9 @@ export interface ClipOptions extends Omit<PlayOptions, 'playback'> {
   loop?: boolean;
 }
 
+const clipNames = optionNames<ClipOptions>({ fade: true, easing: true, speed: true, loop: true });
+const engineNames = [...openNames, 'skin'];
+
 /** Whether a clip repeats if the caller does not say. `clip.loops` does not decide: glTF has no such flag, so it is false in most files. */
 export function repeats({ extras }: Clip): boolean {
   const loop = (extras as { loop?: unknown } | null)?.loop;
@@ -28,7 +34,9 @@ export function repeats({ extras }: Clip): boolean {
 }
 
 /** Starts a clip that fades in over what plays. Throws NOT_FOUND, BAD_ARGUMENT. */
-export function startClip(fade: CrossFade, clip: Key<Clip>, { speed, loop, ...options }: ClipOptions = {}): void {
+export function startClip(fade: CrossFade, clip: Key<Clip>, given: ClipOptions = {}): void {
+  checkOptions('play', given, clipNames);
+  const { speed, loop, ...options } = given;
   const playback = new Playback(fade.model, clip);
   try {
     if (speed !== undefined) playback.speed = speed;
@@ -56,6 +64,7 @@ export abstract class Player {
 
   /** Starts a clip, which `update` plays and which fades in over what plays now. Throws NOT_FOUND, BAD_ARGUMENT. */
   play(clip: Key<Clip>, options: ClipOptions = {}): this {
+    this.#check();
     startClip(this.#fade, clip, options);
     return this;
   }
@@ -65,6 +74,8 @@ export abstract class Player {
    * nothing plays, the pose stays, and is written.
    */
   update(seconds: number, adjust?: (pose: Pose) => void): this {
+    this.#check();
+    checkNumber(seconds, 'seconds');
     if (this.#fade.playing.length > 0) this.#fade.advance(seconds).sample(this.pose);
     adjust?.(this.pose);
     return this.apply();
@@ -72,6 +83,10 @@ export abstract class Player {
 
   /** Writes the pose. */
   abstract apply(): this;
+
+  #check(): void {
+    if (this.pose.disposed) throw new BendyError('disposed', 'this character has been disposed');
+  }
 
   /** Removes the character from the engine, and releases its memory and its model. */
   dispose(): void {
@@ -82,7 +97,9 @@ export abstract class Player {
 }
 
 /** Opens a file and makes a character of it. What fails leaves no memory in use. */
-export async function loadCharacter<T>(source: Source, { skin: _, ...options }: EngineOptions, make: (model: Model) => T): Promise<T> {
+export async function loadCharacter<T>(source: Source, given: EngineOptions, make: (model: Model) => T): Promise<T> {
+  checkOptions('loadBendy', given, engineNames);
+  const { skin: _, ...options } = given;
   const model = await Model.open(source, options);
   try {
     return make(model);

@@ -6,11 +6,9 @@ import {
   Matrix4,
   type Object3D,
   Quaternion,
-  type QuaternionLike,
   Skeleton,
   SkinnedMesh,
   Vector3,
-  type Vector3Like,
 } from 'three';
 import {
   BendyError,
@@ -20,13 +18,18 @@ import {
   type Items,
   type Key,
   type Model,
+  type PointLike,
   type Pose,
   type ReachOptions,
   type ReachResult,
+  type RotationLike,
   type SkinOptions,
 } from '../index.js';
 import { described } from '../errors.js';
 import { type ClipOptions, startClip } from '../engines/player.js';
+import { reachOptionsNames } from '../generated/bindings.js';
+import { checkNumber, component } from '../numbers.js';
+import { checkOptions, optionNames } from '../options.js';
 import { Borrowed } from './borrowed.js';
 import type { BendyCharacter } from './character.js';
 import { Palettes } from './palettes.js';
@@ -55,12 +58,15 @@ export interface AnimatorPlayOptions extends ClipOptions {}
 /** Options of `BendyAnimator.reach`. */
 export interface AnimatorReachOptions extends Omit<ReachOptions, 'rotation' | 'pole'> {
   /** The desired orientation of the tip. */
-  rotation?: QuaternionLike;
+  rotation?: RotationLike;
   /** A point to bend towards: two-bone and aim. */
-  pole?: Vector3Like;
+  pole?: PointLike;
   /** The space of target, rotation and pole: three.js's world, if not given, or the model's own space, that of `scene`. */
   space?: 'world' | 'model';
 }
+
+const animatorNames = optionNames<AnimatorOptions>({ skin: true, method: true, joints: true });
+const reachNames = optionNames<AnimatorReachOptions>({ ...reachOptionsNames, rotation: true, space: true });
 
 /** A skinned object whose vertices the runtime computes, and its original state. */
 interface Skinned {
@@ -108,6 +114,7 @@ export class BendyAnimator {
     if (model === undefined) {
       throw new BendyError('bad_argument', `expected the result of BendyLoader, with scene and model, found ${described(character)}`);
     }
+    checkOptions('BendyAnimator', options, animatorNames);
     this.character = character;
     this.pose = model.pose();
     this.#other = model.pose();
@@ -120,18 +127,21 @@ export class BendyAnimator {
 
   /** Sets the pose to a clip at a time on its time line, in seconds. Throws NOT_FOUND, BAD_ARGUMENT. */
   sample(clip: Key<Clip>, seconds: number): this {
+    this.#check();
     this.pose.sample(clip, seconds);
     return this;
   }
 
   /** Blends the pose towards a clip at a time: weight 0 to 1, `mask` scales it per joint. Throws NOT_FOUND, BAD_ARGUMENT. */
   blend(clip: Key<Clip>, seconds: number, weight: number, mask?: ArrayLike<number>): this {
+    this.#check();
     this.pose.blend(this.#other.sample(clip, seconds), weight, mask);
     return this;
   }
 
   /** Starts a clip, which `update` plays and which fades in over what plays now. Throws NOT_FOUND, BAD_ARGUMENT. */
   play(clip: Key<Clip>, options: AnimatorPlayOptions = {}): this {
+    this.#check();
     startClip(this.#fade, clip, options);
     return this;
   }
@@ -147,6 +157,7 @@ export class BendyAnimator {
    * has changed and `source` is the caller's. Throws BAD_ARGUMENT if a joint lacks its role.
    */
   borrow(source: Model | null): this {
+    this.#check();
     if (source !== null && source === this.#borrowed?.model) return this;
     const borrowed = source === null ? null : new Borrowed(source, this.character.model);
     const fade = new CrossFade(source ?? this.character.model);
@@ -157,6 +168,7 @@ export class BendyAnimator {
 
   /** Ends what plays, and sets the pose to rest. */
   stop(): this {
+    this.#check();
     const { model } = this.#fade;
     this.#fade.dispose();
     this.#fade = new CrossFade(model);
@@ -173,25 +185,28 @@ export class BendyAnimator {
    * Moves an IK chain so that its tip reaches a target, within the joints' limits, starting from the current pose. Lengths in
    * options and result are metres of the model. Throws NOT_FOUND, BAD_ARGUMENT.
    */
-  reach(chain: Key<Chain>, target: Vector3Like, options: AnimatorReachOptions = {}): ReachResult {
-    if (typeof target?.x !== 'number') {
-      throw new BendyError('bad_argument', `the target is ${described(target)}, not a point { x, y, z } such as ball.position`);
-    }
+  reach(chain: Key<Chain>, target: PointLike, options: AnimatorReachOptions = {}): ReachResult {
+    this.#check();
+    checkOptions('reach', options, reachNames);
     const { rotation, pole, space, ...rest } = options;
     const isWorld = space !== 'model';
     if (isWorld) {
       this.character.scene.updateWorldMatrix(true, false);
       toModel.copy(this.character.scene.matrixWorld).invert();
     }
-    const place = (p: Vector3Like): number[] => (isWorld ? point.copy(p).applyMatrix4(toModel) : point.copy(p)).toArray();
+    const place = (p: PointLike, name: string): number[] => {
+      point.set(component(p, 0, 3, name), component(p, 1, 3, name), component(p, 2, 3, name));
+      return (isWorld ? point.applyMatrix4(toModel) : point).toArray();
+    };
     const given: ReachOptions = rest;
-    if (pole !== undefined) given.pole = place(pole);
+    if (pole !== undefined) given.pole = place(pole, 'pole');
     if (rotation !== undefined) {
-      turn.set(rotation.x, rotation.y, rotation.z, rotation.w);
+      const part = (i: number): number => component(rotation, i, 4, 'rotation');
+      turn.set(part(0), part(1), part(2), part(3));
       if (isWorld) turn.premultiply(this.character.scene.getWorldQuaternion(new Quaternion()).invert());
       given.rotation = turn.normalize().toArray();
     }
-    return this.pose.reach(chain, place(target), given);
+    return this.pose.reach(chain, place(target, 'target'), given);
   }
 
   /**
@@ -199,6 +214,8 @@ export class BendyAnimator {
    * nothing plays, the pose stays, and is written.
    */
   update(seconds: number, adjust?: (animator: this) => void): this {
+    this.#check();
+    checkNumber(seconds, 'seconds');
     if (this.#fade.isPlaying) {
       this.#fade.advance(seconds).sample(this.#borrowed?.pose ?? this.pose);
       this.#borrowed?.apply(this.pose);
@@ -209,6 +226,7 @@ export class BendyAnimator {
 
   /** Writes the pose. */
   apply(): this {
+    this.#check();
     const { parts, model } = this.character;
     const { moved } = this.#palettes ?? { moved: null };
     if (moved === null || moved.length > 0) this.#moveJoints(moved);
@@ -275,6 +293,10 @@ export class BendyAnimator {
     this.#endPlaying();
     this.#other.dispose();
     this.pose.dispose();
+  }
+
+  #check(): void {
+    if (this.pose.disposed) throw new BendyError('disposed', 'this BendyAnimator has been disposed');
   }
 
   #endPlaying(): void {

@@ -19,6 +19,8 @@ import { BendyError, type Clip, Crowd, type Key, type Mesh } from '../index.js';
 import { repeats } from '../engines/player.js';
 import { described } from '../errors.js';
 import { checkIndex } from '../items.js';
+import { checkNumber } from '../numbers.js';
+import { checkOptions, optionNames } from '../options.js';
 import type { BendyCharacter } from './character.js';
 import { none } from '../runtime.js';
 import { isSkinnedByRuntime, type Part, withIndex } from './parts.js';
@@ -32,6 +34,8 @@ export interface CrowdPlayOptions {
   /** Whether the clip repeats. If not given: unless its `extras` have `"loop": false`. */
   loop?: boolean;
 }
+
+const playNames = optionNames<CrowdPlayOptions>({ offset: true, speed: true, loop: true });
 
 /** What a member plays. */
 interface Playing {
@@ -201,7 +205,9 @@ export class BendyCrowd extends Group {
   }
 
   /** Starts a clip, which `update` plays. Throws NOT_FOUND, BAD_ARGUMENT. */
-  play(member: number, clip: Key<Clip>, { offset = 0, speed = 1, loop }: CrowdPlayOptions = {}): this {
+  play(member: number, clip: Key<Clip>, options: CrowdPlayOptions = {}): this {
+    checkOptions('play', options, playNames);
+    const { offset = 0, speed = 1, loop } = options;
     if (!Number.isFinite(offset) || !Number.isFinite(speed)) {
       throw new BendyError('bad_argument', `offset ${offset} and speed ${speed} must be finite numbers`);
     }
@@ -218,7 +224,8 @@ export class BendyCrowd extends Group {
 
   /** Advances all members by seconds, and poses them. Throws BAD_ARGUMENT unless the seconds are finite, DISPOSED. */
   update(seconds: number): this {
-    if (!Number.isFinite(seconds)) throw new BendyError('bad_argument', `${seconds} seconds are not a finite number`);
+    if (this.#crowd.disposed) throw new BendyError('disposed', 'this BendyCrowd has been disposed');
+    if (!Number.isFinite(checkNumber(seconds, 'seconds'))) throw new BendyError('bad_argument', `${seconds} seconds are not a finite number`);
     for (const [member, playing] of this.#playing.entries()) {
       if (playing === null) {
         this.#crowd.set(member, null, 0);

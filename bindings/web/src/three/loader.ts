@@ -1,5 +1,6 @@
 import { FileLoader, Loader, LoaderUtils, type LoadingManager } from 'three';
 import { BendyError, init, Model, type OpenOptions } from '../index.js';
+import { described } from '../errors.js';
 import { type BendyCharacter, makeCharacter } from './character.js';
 import { type Ktx2Decoder, Textures } from './textures.js';
 
@@ -40,6 +41,12 @@ export class BendyLoader extends Loader<BendyCharacter> {
     onProgress?: (event: ProgressEvent) => void,
     onError?: (error: unknown) => void,
   ): void {
+    if (typeof url !== 'string') {
+      const found = url === undefined ? 'is missing' : `is ${described(url)}`;
+      const error = new BendyError('bad_argument', `the address of the file ${found}: a text is expected; parseAsync takes bytes`);
+      if (onError === undefined) throw error;
+      return onError(error);
+    }
     const base = LoaderUtils.extractUrlBase(url);
     const path = this.resourcePath || (this.path === '' ? base : LoaderUtils.resolveURL(base, this.path));
     this.preload();
