@@ -20,6 +20,7 @@ export interface BendyViewerProps extends Omit<HTMLAttributes<HTMLElement>, 'onL
   cameraControls?: boolean | undefined;
   paused?: boolean | undefined;
   onLoad?: (character: BendyCharacter) => void;
+  /** Without it, errors are on the console. */
   onError?: (error: BendyError) => void;
   onProgress?: (progress: ViewerProgress) => void;
   /** Receives the element. */
@@ -38,7 +39,13 @@ export function BendyViewer({ cameraControls, paused, className, onLoad, onError
     const viewer = element.current!;
     const stop = new AbortController();
     for (const type of ['load', 'error', 'progress'] as const) {
-      viewer.addEventListener(type, ({ detail }) => handlers.current[type]?.(detail as never), { signal: stop.signal });
+      const call = (event: CustomEvent): void => {
+        const handler = handlers.current[type];
+        if (handler === undefined) return;
+        event.preventDefault(); // the console need not show what a handler receives
+        handler(event.detail as never);
+      };
+      viewer.addEventListener(type, call, { signal: stop.signal });
     }
     return () => stop.abort();
   }, []);

@@ -173,7 +173,10 @@ test('attributes change what is shown', { skip }, async () => {
   await loaded;
   const joints = await tab.evaluate(() => viewer.character.joints.length);
   assert.ok(joints < 65);
-  await tab.evaluate(() => (viewer.clip = 'no such clip'));
+  await tab.evaluate(() => {
+    viewer.addEventListener('error', (event) => event.preventDefault(), { once: true });
+    viewer.clip = 'no such clip';
+  });
   const [type, kind] = await tab.evaluate(() => [seen.at(-1)[0], seen.at(-1)[1].kind]);
   assert.deepEqual([type, kind], ['error', 'not_found']);
   await tab.evaluate(() => (viewer.clip = ''));
@@ -224,6 +227,16 @@ test('what fails is an event with a BendyError', { skip }, async () => {
   assert.equal(await tab.evaluate(() => viewer.shadowRoot.querySelector('img').hidden), false, 'the poster stays');
   const broken = await show({ src: 'broken.bendy' });
   assert.deepEqual([broken.type, broken.name, broken.kind], ['error', 'BendyError', 'malformed']);
+  const inConsole = () => problems.filter((text) => text.includes('BendyError'));
+  assert.equal(inConsole().length, 2, problems.join('\n'));
+  assert.match(inConsole()[1], /convert\(\) of bendy\/tools/);
+  await tab.evaluate(() => {
+    viewer.addEventListener('error', (event) => event.preventDefault());
+    globalThis.failed = new Promise((resolve) => viewer.addEventListener('error', resolve));
+    viewer.src = 'none.bendy';
+  });
+  await tab.evaluate(() => failed);
+  assert.equal(inConsole().length, 2, 'a listener has dealt with it');
 });
 
 test('it loads when it comes into view, and starts paused for readers who prefer reduced motion', { skip }, async () => {

@@ -26,7 +26,7 @@ export interface ViewerProgress {
 export interface ViewerEvents {
   /** The character is shown. */
   load: CustomEvent<BendyCharacter>;
-  /** The character, or its clip, cannot be shown. */
+  /** The character, or its clip, cannot be shown. The error is also on the console, unless a listener calls `preventDefault`. */
   error: CustomEvent<BendyError>;
   progress: CustomEvent<ViewerProgress>;
 }
@@ -43,7 +43,7 @@ const BaseElement = (globalThis.HTMLElement ?? class {}) as typeof HTMLElement;
 /**
  * An element that shows a character. It loads when it comes near the visible part of the page, and draws only while something moves.
  *
- * Attributes, which are properties too: `src`, the address of the file; `motions`, the address of another file, whose clips the character
+ * Attributes, which are properties too: `src`, the address of the bendy file; `motions`, the address of another file, whose clips the character
  * plays in place of its own, whatever its build, if the joints of both have roles; `clip`, by name or number, which repeats, the first one if absent,
  * at rest if empty; `poster`, an image to show until then; `alt`, a description; `camera-controls` (`cameraControls`), whether pointer,
  * wheel and keys turn the camera; `paused`, whether time stands still. If the reader prefers reduced motion, it starts paused, and `play` plays.
@@ -238,7 +238,8 @@ export class BendyViewerElement extends BaseElement {
 
   #fail(error: unknown): void {
     const failure = error instanceof BendyError ? error : Object.assign(new BendyError('io', String(error)), { cause: error });
-    this.dispatchEvent(new CustomEvent('error', { detail: failure }));
+    // Like an uncaught exception: on the console, unless a listener deals with it.
+    if (this.dispatchEvent(new CustomEvent('error', { detail: failure, cancelable: true }))) console.error(failure);
   }
 
   /** Null if there are none, or if they cannot be opened. */
