@@ -5,6 +5,7 @@ import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, 
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
+import * as tools from '../dist/tools/index.js';
 import { repository } from './helpers.mjs';
 
 const web = join(repository, 'bindings/web');
@@ -55,16 +56,17 @@ test('a word in backquotes in a comment that is made from bendy.h is a name of t
   for (const name of ['bindings', 'classes']) assert.deepEqual(unknown(readFileSync(join(web, `dist/generated/${name}.d.ts`), 'utf8')), [], name);
 });
 
-/** Compiles a module of TypeScript with a compiler of test/compilers, libraries checked too; returns what it says. */
-function compile(compiler, code, packages = []) {
+/** Compiles modules of TypeScript with a compiler of test/compilers, libraries checked too; returns what it says. `more`: files by name. */
+function compile(compiler, code, packages = [], more = {}) {
   const project = mkdtempSync(join(folder, 'types-'));
   mkdirSync(join(project, 'node_modules/@types'), { recursive: true });
   symlinkSync(web, join(project, 'node_modules/bendy'));
   for (const name of packages) symlinkSync(join(web, 'node_modules', name), join(project, 'node_modules', name));
   writeFileSync(join(project, 'package.json'), '{"type": "module"}');
-  writeFileSync(join(project, 'main.ts'), code);
+  const files = { 'main.ts': code, ...more };
+  for (const [name, text] of Object.entries(files)) writeFileSync(join(project, name), text);
   const options = { strict: true, target: 'es2022', lib: ['es2022', 'dom'], module: 'nodenext', skipLibCheck: false, noEmit: true, types: [], preserveSymlinks: true };
-  writeFileSync(join(project, 'tsconfig.json'), JSON.stringify({ compilerOptions: options, files: ['main.ts'] }));
+  writeFileSync(join(project, 'tsconfig.json'), JSON.stringify({ compilerOptions: options, files: Object.keys(files) }));
   const { stdout, status } = spawnSync(process.execPath, [join(web, 'test/compilers/node_modules', compiler, 'bin/tsc'), '-p', project], { encoding: 'utf8' });
   assert.equal(status === 0, stdout === '');
   return stdout.split('\n').filter((line) => line !== '');
@@ -80,6 +82,40 @@ const uses = `import { BendyError, type Clip, Model } from 'bendy';
   new Blob([positions, bytes]);
   console.log(kind);
 `;
+
+const fileSystem = `declare module 'node:fs/promises' {
+  export function readFile(name: string): Promise<Uint8Array>;
+  export function writeFile(name: string, bytes: Uint8Array): Promise<void>;
+}`;
+
+/** The JavaScript blocks of docs/web.md as modules of TypeScript, by name. */
+const guide = Object.fromEntries(
+  [...readFileSync(join(repository, 'docs/web.md'), 'utf8').matchAll(/^```js\n(.*?)^```$/gms)].map(([, code], number) => [`block${number + 1}.ts`, code]),
+);
+
+/** A module in which what the tools tell of characters has its types: members that a type lacks, or that are missing, are errors. */
+async function toldByTools() {
+  const glb = readFileSync(join(repository, 'examples/mannequin.glb'));
+  const rich = await tools.convert(glb, { compact: '0.1mm', autoRig: true, lod: true });
+  const small = await tools.convert(readFileSync(join(repository, 'spec/examples/every_chunk.bendy')), { compact: true });
+  const plain = await tools.convert(glb);
+  const typed = (type, values) => values.map((value, k) => `export const ${type.toLowerCase()}${k}: ${type} = ${JSON.stringify(value)};\n`).join('');
+  return `import type { ConversionReport, Summary } from 'bendy/tools';
+    ${typed('ConversionReport', [rich.report, small.report, plain.report])}${typed('Summary', [await tools.summary(rich.bytes), await tools.summary(small.bytes)])}`;
+}
+
+test('what the tools tell of characters has its types, and docs/web.md is strict TypeScript', async () => {
+  const told = await toldByTools();
+  assert.deepEqual(compile('newest', told, [], { ...guide, 'node.d.ts': fileSystem }), []);
+  assert.match(guide['block8.ts'] ?? '', /tools\.summary/);
+  const wrong = told.replaceAll('"measuredError":', '"measured":').replaceAll('"repeats":', '"loops":');
+  const said = compile('newest', wrong);
+  for (const name of ['measured', 'loops']) assert.ok(said.some((line) => line.includes(`"${name}"`)), said.slice(0, 5).join('\n'));
+  const [error] = compile('newest', `import * as tools from 'bendy/tools';
+    const { report } = await tools.convert(new Uint8Array(1));
+    console.log(report.compact.measuredError);\n`);
+  assert.match(error, /TS18048/, 'compact may be absent');
+});
 
 for (const compiler of ['oldest', 'newest']) {
   const { version } = JSON.parse(readFileSync(join(web, 'test/compilers/node_modules', compiler, 'package.json'), 'utf8'));

@@ -322,11 +322,27 @@ test('what is no bendy file is refused by name', async () => {
   const refused = (options, message) => assert.rejects(tools.convert(read(examples[0]), options), { kind: 'bad_argument', message });
   await refused({ autorig: true }, /no option "autorig"; did you mean autoRig\?/);
   await refused({ 'auto-rig': true }, /did you mean autoRig\?/);
-  await refused({ maxError: '1mm' }, /no option "maxError"/);
+  await refused({ maxError: '1mm' }, /no option "maxError"; did you mean compact: '1mm'\?/);
+  await refused({ shrink: true }, /no option "shrink"; it has /);
   await refused({ compact: [1] }, /compact is an object of type Array, not true or the largest error/);
   await assert.rejects(tools.convert({ '../a.glb': new Uint8Array(4) }), { kind: 'bad_argument' });
   await assert.rejects(tools.convert({}), { kind: 'conversion' });
   await assert.rejects(tools.assemble('{"bendy": '), { kind: 'malformed', code: 'TEXT', path: /^\d+:\d+$/ });
+});
+
+test('options that do not exist are refused', async () => {
+  const { bytes } = await tools.convert(read(join(repository, 'examples/tentacle.glb')));
+  for (const [call, message] of [
+    [() => tools.dump(bytes, { decoded: true }), /^dump has no option "decoded"; did you mean decode\?$/],
+    [() => tools.assemble('', { allow_invalid: true }), /did you mean allowInvalid\?$/],
+    [() => tools.rename(bytes, 'joint', {}, { mustMatch: true }), /^rename has no option "mustMatch"; it has allMustMatch$/],
+    [() => tools.mergeClips(bytes, bytes, { samename: 'number' }), /did you mean sameName\?$/],
+    [() => tools.retargetClips(bytes, bytes, { clips: 'Walk' }), /^retargetClips has no option "clips"; did you mean clip\?$/],
+    [() => tools.exportModel(bytes, 'glb', { names: 'fox' }), /^exportModel has no option "names"; did you mean name\?$/],
+    [() => tools.diff(bytes, bytes, { tolerances: '1mm' }), /did you mean tolerance\?$/],
+  ]) {
+    await assert.rejects(call(), { kind: 'bad_argument', message });
+  }
 });
 
 test('a wrong word of an option is refused', async () => {

@@ -10,11 +10,13 @@
 import { asBytes } from '../bytes.js';
 import { BendyError, described } from '../errors.js';
 import { programOptions } from '../generated/convert_options.js';
+import { checkOptions, optionNames } from '../options.js';
 import { type Inputs, runTool } from './module.js';
 import type {
   Chunk,
   ClipWork,
   Conversion,
+  ConversionReport,
   ConvertOptions,
   CharacterDifferences,
   DiffOptions,
@@ -58,19 +60,12 @@ async function edited(request: object, inputs: Inputs): Promise<Edited> {
 }
 
 const convertOptions: readonly string[] = programOptions.filter((name) => name !== 'maxError' && name !== 'root');
-const retargetOptions: Record<keyof RetargetClipsOptions, true> = {
+const convertAdvice = { maxError: "compact: '1mm'", 'max-error': "compact: '1mm'" };
+const retargetOptions = optionNames<RetargetClipsOptions>({
   clip: true, sameName: true, restPoses: true, obeyConstraints: true, plantsFeet: true,
-};
-
-/** Throws BAD_ARGUMENT for an option that a function does not have. */
-function checkOptions(caller: string, options: object, known: readonly string[]): void {
-  for (const name of Object.keys(options)) {
-    if (known.includes(name)) continue;
-    const meant = known.find((one) => one.toLowerCase() === name.replace(/[-_]/g, '').toLowerCase());
-    const hint = meant === undefined ? '' : `; did you mean ${meant}?`;
-    throw new BendyError('bad_argument', `${caller} has no option ${JSON.stringify(name)}${hint}`);
-  }
-}
+});
+const dumpOptions = optionNames<DumpOptions>({ decode: true, ignoreSums: true });
+const exportOptions = optionNames<ExportOptions>({ lod: true, name: true });
 
 /**
  * Converts another format (.gltf, .glb, .vrm, .vrma, .x, .md2, .bvh), or a bendy file, to a bendy file, exactly unless `compact`.
@@ -80,7 +75,7 @@ function checkOptions(caller: string, options: object, known: readonly string[])
  */
 export async function convert(source: Source, options: ConvertOptions = {}): Promise<Conversion> {
   const { main, rig, compact, progress, scene, ...others } = options;
-  checkOptions('convert', others, convertOptions);
+  checkOptions('convert', others, convertOptions, convertAdvice);
   if (compact !== undefined && typeof compact !== 'boolean' && typeof compact !== 'string') {
     throw new BendyError('bad_argument', `compact is ${described(compact)}, not true or the largest error, "0.1mm"`);
   }
@@ -102,7 +97,7 @@ export async function convert(source: Source, options: ConvertOptions = {}): Pro
     inputs[name] = typeof rig === 'string' ? rig : rig instanceof Uint8Array ? rig : JSON.stringify(rig);
     request['rig'] = name;
   }
-  const { answer, made } = await runTool<{ report: Conversion['report'] & { warnings: Warning[] }; sources: string[] }>(
+  const { answer, made } = await runTool<{ report: ConversionReport; sources: string[] }>(
     request,
     inputs,
     progress,
@@ -156,6 +151,7 @@ export async function inspectPage(bytes: FileBytes, name: string): Promise<strin
 
 /** The text form of a file (spec/text.md): JSON that `assemble` turns back into the same bytes. */
 export async function dump(bytes: FileBytes, options: DumpOptions = {}): Promise<string> {
+  checkOptions('dump', options, dumpOptions);
   return new TextDecoder().decode(await made({ do: 'dump', file: 'a.bendy', ...options }, { 'a.bendy': asBytes(bytes) }));
 }
 
@@ -163,7 +159,8 @@ export async function dump(bytes: FileBytes, options: DumpOptions = {}): Promise
  * The file that a text form describes. Rejects with `malformed` for a fault in the text, whose `path` is its line and column, and
  * for an invalid file unless `allowInvalid`.
  */
-export function assemble(text: string, options: { allowInvalid?: boolean } = {}): Promise<Uint8Array<ArrayBuffer>> {
+export async function assemble(text: string, options: { allowInvalid?: boolean } = {}): Promise<Uint8Array<ArrayBuffer>> {
+  checkOptions('assemble', options, ['allowInvalid']);
   return made({ do: 'assemble', file: 'a.json', ...options }, { 'a.json': text });
 }
 
@@ -180,12 +177,13 @@ export function strip(bytes: FileBytes, part: string): Promise<Edited> {
  *
  * @param options - allMustMatch: false: a pair without a match is a warning
  */
-export function rename(
+export async function rename(
   bytes: FileBytes,
   kind: NamedKind,
   names: Readonly<Record<string, string>>,
   options: { allMustMatch?: boolean } = {},
 ): Promise<Edited> {
+  checkOptions('rename', options, ['allMustMatch']);
   return edited({ do: 'rename', kind, names: Object.entries(names), ...options }, { 'a.bendy': asBytes(bytes) });
 }
 
@@ -194,7 +192,8 @@ export function rename(
  *
  * @param options - sameName: what to do if a clip of that name exists; "error" by default
  */
-export function mergeClips(bytes: FileBytes, other: FileBytes, options: { sameName?: SameName } = {}): Promise<Edited> {
+export async function mergeClips(bytes: FileBytes, other: FileBytes, options: { sameName?: SameName } = {}): Promise<Edited> {
+  checkOptions('mergeClips', options, ['sameName']);
   const request = { do: 'mergeClips', other: 'b.bendy', sameName: options.sameName ?? 'error' };
   return edited(request, { 'a.bendy': asBytes(bytes), 'b.bendy': asBytes(other) });
 }
@@ -204,7 +203,7 @@ export function mergeClips(bytes: FileBytes, other: FileBytes, options: { sameNa
  * a line for each clip with what had to give way, and `warnings` what is lost.
  */
 export async function retargetClips(bytes: FileBytes, other: FileBytes, options: RetargetClipsOptions = {}): Promise<Edited> {
-  checkOptions('retargetClips', options, Object.keys(retargetOptions));
+  checkOptions('retargetClips', options, retargetOptions);
   const { clip = '', sameName = 'error', ...others } = options;
   const request = { ...others, do: 'retargetClips', other: 'b.bendy', clip: String(clip), sameName };
   return edited(request, { 'a.bendy': asBytes(bytes), 'b.bendy': asBytes(other) });
@@ -251,6 +250,7 @@ export function limitInfluences(bytes: FileBytes, most: number): Promise<Edited>
  * start with `options.name`.
  */
 export async function exportModel(bytes: FileBytes, format: ExportFormat, options: ExportOptions = {}): Promise<Exported> {
+  checkOptions('exportModel', options, exportOptions);
   const request = { do: 'export', file: 'a.bendy', format, name: options.name ?? 'model', lod: options.lod ?? 1 };
   const { answer, made } = await runTool<{ warnings: Warning[] }>(request, { 'a.bendy': asBytes(bytes) });
   const files = Object.fromEntries(made.map((file) => [file.name, file.bytes]));
@@ -264,6 +264,7 @@ export async function exportModel(bytes: FileBytes, format: ExportFormat, option
 export async function diff(a: FileBytes, b: FileBytes, options: DiffOptions & { tolerance: string }): Promise<CharacterDifferences>;
 export async function diff(a: FileBytes, b: FileBytes, options?: { tolerance?: undefined }): Promise<FileDifferences>;
 export async function diff(a: FileBytes, b: FileBytes, options: DiffOptions = {}): Promise<FileDifferences | CharacterDifferences> {
+  checkOptions('diff', options, ['tolerance']);
   const request = { do: 'diff', file: 'a.bendy', other: 'b.bendy', tolerance: options.tolerance ?? '' };
   const inputs = { 'a.bendy': asBytes(a), 'b.bendy': asBytes(b) };
   const { answer } = await runTool<(FileDifferences | CharacterDifferences) & { made?: unknown }>(request, inputs);

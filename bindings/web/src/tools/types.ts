@@ -30,12 +30,64 @@ export interface Warning {
   count: number;
 }
 
+/** How compact encodings changed a character. */
+export interface CompactReport {
+  /** Metres: the requested bound. */
+  maxError: number;
+  /** Metres: the largest error that was measured. */
+  measuredError: number;
+  /** Where it was measured: mesh, vertex and pose; "" if nothing moved. */
+  place: string;
+  /** The height of the character in metres, at rest. */
+  height: number;
+  /** Bytes of an exact file. */
+  exactBytes: number;
+  /** Bytes of this file. */
+  compactBytes: number;
+  /** The same by kind of content: "POSI", "clips", ... */
+  kinds: { kind: string; exactBytes: number; compactBytes: number }[];
+  /** Bytes that levels of detail add, if there are any. */
+  lodBytes?: number;
+  /** If there are named curves: how many, how many are packed, and their largest error, as a share of their component's range. */
+  curves?: { count: number; packed: number; largestError: number };
+}
+
+/** What `convert` tells of its result: the object of `bendy convert --json`, without the names of files. */
+export interface ConversionReport {
+  /** The size of the bendy file. */
+  bytes: number;
+  /** How many of the bytes are images. */
+  imageBytes: number;
+  joints: number;
+  constraints: number;
+  chains: number;
+  meshes: number;
+  vertices: number;
+  triangles: number;
+  /** Triangles of the coarsest level of detail, if there are levels. */
+  fewestTriangles?: number;
+  morphTargets: number;
+  materials: number;
+  textures: number;
+  /** `start` and `seconds`, the length, in seconds. */
+  clips: { name: string; start: number; seconds: number }[];
+  /** With `compact`: how it changed the character. */
+  compact?: CompactReport;
+  /** The files that became part of the result. */
+  embedded: { file: string; bytes: number; mediaType: string }[];
+  warnings: Warning[];
+  /** Lines about what `autoRig` or `autoSkin` has chosen. */
+  proposals: string[];
+  /** Lines about options that may help. */
+  suggestions: string[];
+}
+
 /** The result of `convert`. */
 export interface Conversion {
   /** The bendy file. */
   bytes: Uint8Array<ArrayBuffer>;
-  /** The object of `bendy convert --json`: counts, clips, sizes, proposals, suggestions. */
-  report: Record<string, unknown> & { proposals: string[]; suggestions: string[] };
+  /** Counts, clips, sizes, errors, proposals, suggestions. */
+  report: ConversionReport;
   warnings: Warning[];
   /** The names of the files that were read. */
   sources: string[];
@@ -87,7 +139,39 @@ export interface Chunk {
 }
 
 /** The object "summary" of `bendy inspect --json`, see docs/inspect.md. */
-export type Summary = Record<string, unknown>;
+export interface Summary {
+  /** The name of the first object; "" if it has none. */
+  name: string;
+  /** The number of objects in the file; all else is about the first. */
+  objects: number;
+  /** `parent`: the number of a joint; null for a root. */
+  joints: (Listed & { parent: number | null })[];
+  /** The number of constraints. */
+  constraints: number;
+  /** `start` and `effector`: names of joints. `links`: the number of joints from one to the other. */
+  chains: (Listed & { start: string; effector: string; links: number })[];
+  /** `influences`: the most of any vertex; 0 if the mesh is rigid. `morphTargets`: names. */
+  meshes: (Listed & { vertices: number; triangles: number; lines?: number; points?: number; influences: number; morphTargets: string[] })[];
+  /** Levels of detail, if there are any: `share` of the triangles, as requested; `error`: metres, null if the file does not say. */
+  levels: { share: number; triangles: number; vertices: number; error: number | null }[];
+  /** Seconds. `repeats`: the clip's own flag, which files from glTF lack. */
+  clips: (Listed & { start: number; end: number; seconds: number; repeats: boolean })[];
+  materials: Listed[];
+  /** `link`: the URI of an image that is not in the file. `sameAs`: the number of the texture that has the same image. */
+  textures: (Listed & { images: { type: string; bytes: number; link?: string; sameAs?: number }[] })[];
+  /** Corners of the rest pose, x y z in metres; null if there is nothing. */
+  bounds: { min: number[]; max: number[] } | null;
+  /** Bytes by kind of content: "skeleton", "positions", ...; kinds without bytes are absent. */
+  bytesByKind: Record<string, number>;
+}
+
+/** One of a summary's lists. */
+interface Listed {
+  /** Its index in the list. */
+  number: number;
+  /** May be empty, and need not be unique. */
+  name: string;
+}
 
 /** Options of `dump`. */
 export interface DumpOptions {
