@@ -32,7 +32,7 @@ const readBytes = `import { readFile } from 'node:fs/promises';\nconst bytes = a
 // As tests/docs/use_from_test.py does with the blocks for C++, C and Python.
 test('the block of docs/languages.md for JavaScript gives the vertices of bendy pose to the last bit', () => {
   const usePlain = `import { init } from 'bendy';\nawait init({ simd: false });\n`;
-  const printed = JSON.parse(run('languages.mjs', `${usePlain}${readBytes}${first}console.log(JSON.stringify([...positions]));`));
+  const printed = JSON.parse(run('languages.mjs', `${usePlain}${readBytes}${first}console.log(JSON.stringify([...skinned.positions]));`));
   bendy(['pose', 'mannequin.bendy', '--clip', 'Walk', '--time', '0.35', '--reach', 'IK_LeftArm=0.3,1.2,0.4', '-o', 'walk.json'], 'plain');
   const expected = JSON.parse(readFileSync(join(folder, 'walk.json'), 'utf8')).meshes.flatMap((mesh) => mesh.positions);
   assert.ok(expected.length > 10000);

@@ -38,7 +38,7 @@ test('node converts and poses: the lines of README.md', () => {
   writeFileSync(join(project, 'convert.js'), blocks.find((code) => code.includes('convert(')));
   run('node', 'convert.js');
   const pose = blocks.find((code) => code.includes('Model.open(')).replace("'fox.bendy'", "(await import('node:fs')).readFileSync('fox.bendy')");
-  writeFileSync(join(project, 'pose.js'), `${pose}console.log(positions.length / 3);`);
+  writeFileSync(join(project, 'pose.js'), `${pose}console.log(skinned.positions.length / 3);`);
   const vertices = Number(run('node', 'pose.js'));
   assert.ok(vertices > 4000 && vertices <= 4504, `${vertices} of 4504 vertices: those alike are one`);
 });
