@@ -70,6 +70,18 @@ def schemas(rig):
         del chain["properties"][name]["type"]
     chain["properties"] |= {"weights": WEIGHTS} | FURTHER
     chains |= {"weight": WEIGHT, "node": {"description": "Number of a node", "type": "integer", "minimum": 0}}
+    standing = definitions(rig, "three", "quaternion", "standing_pose")
+    pose = standing["standing_pose"]
+    pose["properties"]["rotations"] = {
+        "description": "Nodes and their rotations in model space", "type": "array", "items": {"$ref": "#/$defs/standing_rotation"}}
+    pose["properties"] |= FURTHER
+    standing |= {
+        "standing_rotation": {
+            "type": "object", "required": ["node", "rotation"], "additionalProperties": False,
+            "properties": {"node": {"$ref": "#/$defs/node"},
+                           "rotation": {"description": "x y z of a unit quaternion whose w is not negative", "$ref": "#/$defs/three"}}},
+        "node": chains["node"]}
+    del standing["flag"]
     roles = [camel(word) for word in rig["properties"]["roles"]["propertyNames"]["enum"]]
     role = {
         "type": "object",
@@ -95,6 +107,13 @@ def schemas(rig):
         "glTF.BENDY_ik_chains.schema.json": file_schema(
             "BENDY_ik_chains", "Chains of nodes that turn together so that a tip reaches a target; gltf.md describes them.",
             "chains", {"items": {"$ref": "#/$defs/chain"}}, chains),
+        "glTF.BENDY_standing_pose.schema.json": {
+            "$schema": "https://json-schema.org/draft/2020-12/schema",
+            "title": "BENDY_standing_pose",
+            "description": "The pose in which the body stands, if that is not the rest pose; gltf.md describes it.",
+            "$ref": "#/$defs/standing_pose",
+            "$defs": standing,
+        },
     }
 
 

@@ -460,7 +460,8 @@ def check_references(check):
 
 def check_gltf_extensions(check):
     """The tables of gltf.md name the members, and the words, of the schemas, which make_gltf_schema.py makes."""
-    schemas = {'constraint': 'node.BENDY_joint_limits', 'role': 'node.BENDY_joint_role', 'chain': 'glTF.BENDY_ik_chains'}
+    schemas = {'constraint': 'node.BENDY_joint_limits', 'role': 'node.BENDY_joint_role', 'chain': 'glTF.BENDY_ik_chains',
+               'standing_pose': 'glTF.BENDY_standing_pose'}
     found = {}
     for before, _, rows in tables(check.page('gltf.md')):
         marked = re.fullmatch(r'<!-- members: (\w+) -->', before)

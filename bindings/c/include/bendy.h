@@ -803,6 +803,10 @@ BENDY_API void bendy_pose_free(bendy_pose* pose); /* does nothing for NULL */
 
 BENDY_API bendy_status bendy_set_rest(bendy_pose* pose, bendy_error* error); /* sets the rest pose; elsewhere: reset */
 
+/* Sets the pose in which the body stands, from which retargeting measures it; the rest pose if the file does not say
+ * it. Allocates memory. */
+BENDY_API bendy_status bendy_stand(bendy_pose* pose, bendy_error* error);
+
 /* Sets the pose to a clip at `seconds` on the clip's time line (bendy_clip.start to end). Whatever the clip does not
  * animate is set to rest. Times outside are clamped to the ends; for clips that loop, bendy_playback has the time. NaN
  * is an error. */

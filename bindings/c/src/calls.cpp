@@ -691,6 +691,13 @@ bendy_status bendy_set_rest(bendy_pose* pose, bendy_error* error) {
     });
 }
 
+bendy_status bendy_stand(bendy_pose* pose, bendy_error* error) {
+    return guarded(error, [&]() -> bendy_status {
+        if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
+        return bendy::capi::stand(pose, error);
+    });
+}
+
 bendy_status bendy_sample(bendy_pose* pose, uint32_t clip, float seconds, bendy_error* error) {
     return guarded(error, [&]() -> bendy_status {
         if (const bendy_status status = check_pointer(pose, "pose", error)) return status;

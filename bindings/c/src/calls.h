@@ -87,6 +87,7 @@ bendy_status sample_curve(const bendy_model* model, uint32_t clip, uint32_t curv
 bendy_status pose_new(const bendy_model* model, bendy_pose*& made, bendy_error* error);
 bendy_status pose_copy(const bendy_pose* pose, bendy_pose*& made, bendy_error* error);
 bendy_status set_rest(bendy_pose* pose, bendy_error* error);
+bendy_status stand(bendy_pose* pose, bendy_error* error);
 bendy_status sample(bendy_pose* pose, uint32_t clip, float seconds, bendy_error* error);
 bendy_status blend(bendy_pose* pose, const bendy_pose* other, float weight, const float* mask, bendy_error* error);
 bendy_status make_additive(bendy_pose* pose, const bendy_pose* reference, bendy_error* error);

@@ -43,6 +43,11 @@ bendy_status bendy::capi::pose_copy(const bendy_pose* pose, bendy_pose*& made, b
     return BENDY_OK;
 }
 
+bendy_status bendy::capi::stand(bendy_pose* pose, bendy_error* /*error*/) {
+    (void)bendy::stand(pose->pose);
+    return BENDY_OK;
+}
+
 bendy_status bendy::capi::set_rest(bendy_pose* pose, bendy_error* /*error*/) {
     pose->pose.set_rest();
     return BENDY_OK;

@@ -186,7 +186,8 @@ TEST(ParseRig, BadFilesNameTheirPlace) {
     EXPECT_EQ(error(R"({"bendy_rig": 2})"), "bendy_rig: layout 2 is not supported, only 1");
     EXPECT_EQ(
         error(R"({"bendy_rig": 1, "chain": []})"),
-        "chain: there is no such key; there are bendy_rig, complete, joints, chains, roles, markers, curves, $schema");
+        "chain: there is no such key; there are bendy_rig, complete, joints, chains, roles, standing_pose, markers, "
+        "curves, $schema");
     EXPECT_EQ(error(R"({"bendy_rig": 1, "bendy_rig": 1})"), "bendy_rig: it stands twice");
     EXPECT_EQ(error(R"({"bendy_rig": 1, "joints": {"a": [], "b": [], "a": []}})"), "joints.a: it stands twice");
     EXPECT_EQ(error("{\n  \"bendy_rig\" 1}").substr(0, 41), "invalid JSON at line 2, column 15 (byte 1");
