@@ -227,6 +227,9 @@ TEST(Convert, CompactSourceThatGrowsIsNotedAndKeptIfAsked) {
     ASSERT_EQ(suggestions(compact, {}).size(), 1U);
     EXPECT_NE(suggestions(compact, {}).front().find("--compact"), std::string::npos);
     EXPECT_TRUE(suggestions(compact, options).empty());
+    ConvertOptions exact;
+    exact.exact = true;
+    EXPECT_TRUE(suggestions(compact, exact).empty());
     EXPECT_TRUE(suggestions(convert_good(example("tentacle.glb")), {}).empty());
 }
 

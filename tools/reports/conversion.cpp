@@ -105,6 +105,7 @@ converter::ConvertOptions options_of(const ConvertArguments& arguments) {
     options.skeleton = arguments.skeleton;
     if (arguments.compact) options.compact = converter::ErrorBound();
     if (!arguments.max_error.empty()) options.compact = *converter::parse_error_bound(arguments.max_error);
+    options.exact = arguments.exact;
     options.drop_unused = arguments.drop_unused;
     options.lod = arguments.lod;
     options.keep_order = arguments.keep_order;

@@ -19,7 +19,7 @@ struct ConvertArguments : ConvertChoices {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path output;  ///< a file; a folder if there are several inputs
     std::filesystem::path depfile;
-    bool exact = true;
+    bool exact = false;  ///< said, although it is the default
     unsigned jobs = 0;  ///< files at a time, or threads for one file; 0: one per processor
     bool force = false;
     bool json = false;

@@ -91,7 +91,9 @@ MappedFile map(const Path& file) {
 MappedFile map_bendy(const Path& file) {
     MappedFile mapped = map(file);
     if (const auto kind = converter::find_file_kind(mapped.bytes(), file)) {
-        const std::string why = converter::why_not_bendy(*kind, file);
+        std::string why = converter::why_not_bendy(*kind, file);
+        if (kind->format && !why.empty())
+            why = "the bytes are " + std::string(kind->name) + ", not a bendy file: convert makes one of them";
         if (!why.empty()) {
             throw Failure{"malformed", code_name(ErrorCode::kNotABendyFile), why, whole_chunk_path(mapped.bytes(), 0)};
         }

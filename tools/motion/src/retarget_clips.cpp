@@ -54,7 +54,8 @@ std::string millimetres(double metres) {
 }
 
 std::string degrees(double radians) {
-    return with("%.2g degrees", radians * 180.0 / std::numbers::pi);
+    const double angle = radians * 180.0 / std::numbers::pi;
+    return with(angle < 10.0 ? "%.2g degrees" : "%.0f degrees", angle);
 }
 
 /// Opens the object that the clips are of, or the first one.

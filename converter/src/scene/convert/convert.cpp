@@ -169,7 +169,7 @@ Result<Buffer, ImportError> convert_any(std::optional<Buffer> source, const std:
             report.suggest("the motion is spread over " + std::to_string(scene->clips.size()) +
                            " clips, most of one joint each: --merge-clips makes one of them");
         }
-        if (scene->was_compact && !options.compact)
+        if (scene->was_compact && !options.compact && !options.exact)
             report.suggest("the source is compact, the result is not: --compact writes a compact file again");
         if (options.auto_skin) {
             if (auto bound = auto_skin(*scene, options.skeleton, report); !bound) return bound.error();
