@@ -123,6 +123,31 @@ TEST(StandingPose, IsTheRestPoseTurnedUprightIfThatLies) {
     }
 }
 
+/// A file whose motions have Z up, as its rest pose, is not turned: its up is what it is.
+TEST(StandingPose, IsNotStoredWhereTheMotionsHaveTheSameUp) {
+    Scene scene = human();
+    tip_over(scene, about({1, 0, 0}, 90.0));
+    scene.clips = {frame_of(rest_of(scene))};
+    Report report;
+    find(scene, report);
+    EXPECT_FALSE(scene.standing_pose.has_value());
+    EXPECT_EQ(warned(report, "does not stand"), 0u);
+}
+
+TEST(StandingPose, IsUprightAsTheMotionsAre) {
+    Scene scene = human();
+    scene.clips = {frame_of(rest_of(scene))};
+    Transform& hips = scene.joints[joint_named(scene, "hips")].rest;
+    const Transform upright = hips;
+    tip_over(scene, about({1, 0, 0}, 90.0));  // the clip has Y up
+    Report report;
+    find(scene, report);
+    ASSERT_TRUE(scene.standing_pose.has_value());
+    EXPECT_EQ(evidence_of(scene), StandingEvidence::rest_pose);
+    EXPECT_LT(degrees_from_up(scene, "hips", "head"), 3.0);
+    EXPECT_NE(hips.rotation, upright.rotation);
+}
+
 TEST(StandingPose, SaysWhereTheBodyLooks) {
     Scene scene = human();
     tip_over(scene, about({1, 0, 0}, -90.0));

@@ -254,7 +254,7 @@ std::vector<RoleRecord> roles_in_another_pose(const Scene& scene, const RestFram
         return pose ? roles_among(scene, RestFrames(scene, pose->locals), clips, all) : std::vector<RoleRecord>();
     };
     std::vector<RoleRecord> roles = roles_in(find_bind_pose(scene));
-    if (roles.empty()) roles = roles_in(find_standing_frame(scene, named.bones));
+    if (roles.empty()) roles = roles_in(find_standing_frame(scene, named.bones, find_up(scene, named.bones)));
     return roles;
 }
 

@@ -22,7 +22,6 @@ namespace {
 
 using Bone = HumanBone;
 
-constexpr glm::dvec3 kUp{0.0, 1.0, 0.0};
 constexpr double kUpright = 35.0;   // degrees, of trunk and legs
 constexpr double kBentKnee = 40.0;  // degrees
 constexpr double kUneven = 0.03;    // of the height, between the feet
@@ -192,11 +191,43 @@ void visit_frames(const Scene& scene, Visit visit) {
 
 }  // namespace
 
-std::optional<CandidatePose> find_standing_frame(const Scene& scene, const Humanoid& bones) {
+namespace {
+
+/// The body's own up: from hips to head, and from the feet to the hip joints.
+std::optional<glm::dvec3> own_up(const RestFrames& pose, const Humanoid& bones) {
+    const std::optional<Ends> ends = ends_of(pose, bones);
+    const auto trunk = ends ? unit(ends->head - ends->hips) : std::nullopt;
+    const auto legs = ends ? unit(ends->tops - ends->feet) : std::nullopt;
+    return trunk && legs ? unit(*trunk + *legs) : std::nullopt;
+}
+
+}  // namespace
+
+glm::dvec3 find_up(const Scene& scene, const Humanoid& bones) {
+    constexpr double kSteady = 0.8;     // length of the mean of unit vectors
+    constexpr double kNearAxis = 0.82;  // cosine: 35 degrees
+    glm::dvec3 sum(0.0);
+    double frames = 0.0;
+    visit_frames(scene, [&](const std::vector<Transform>& locals) {
+        sum += own_up(RestFrames(scene, locals), bones).value_or(glm::dvec3(0.0));
+        frames += 1.0;
+    });
+    const glm::dvec3 mean = frames == 0.0 ? sum : sum / frames;
+    const auto up = unit(mean);
+    for (int axis = 0; up && glm::length(mean) > kSteady && axis < 3; ++axis) {
+        if (std::abs((*up)[axis]) < kNearAxis) continue;
+        glm::dvec3 exact(0.0);
+        exact[axis] = (*up)[axis] < 0.0 ? -1.0 : 1.0;
+        return exact;
+    }
+    return {0.0, 1.0, 0.0};
+}
+
+std::optional<CandidatePose> find_standing_frame(const Scene& scene, const Humanoid& bones, const glm::dvec3& up) {
     std::optional<CandidatePose> best;
     double least = std::numeric_limits<double>::infinity();
     visit_frames(scene, [&](std::vector<Transform> locals) {
-        const std::optional<Standing> standing = judge_stand(RestFrames(scene, locals), bones, kUp);
+        const std::optional<Standing> standing = judge_stand(RestFrames(scene, locals), bones, up);
         if (!standing || !standing->is_upright() || standing->flaws() >= least) return;
         least = standing->flaws();
         best = CandidatePose{StandingEvidence::clip, std::move(locals)};
@@ -220,15 +251,15 @@ std::optional<Rotation> axes_of(const RestFrames& pose, const Humanoid& bones, c
 
 }  // namespace
 
-std::optional<CandidatePose> turn_upright(const Scene& scene, const Humanoid& bones, CandidatePose pose) {
+std::optional<CandidatePose> turn_upright(const Scene& scene, const Humanoid& bones, const glm::dvec3& up,
+                                          CandidatePose pose) {
     const RestFrames frames(scene, pose.locals);
-    const std::optional<Ends> ends = ends_of(frames, bones);
-    const auto trunk = ends ? unit(ends->head - ends->hips) : std::nullopt;
-    const auto legs = ends ? unit(ends->tops - ends->feet) : std::nullopt;
-    const auto up = trunk && legs ? unit(*trunk + *legs) : std::nullopt;
-    const auto axes = up ? axes_of(frames, bones, *up) : std::nullopt;
-    if (!axes) return std::nullopt;
-    const Rotation turn = glm::conjugate(*axes);
+    const auto own = own_up(frames, bones);
+    const auto axes = own ? axes_of(frames, bones, *own) : std::nullopt;
+    const auto x = unit_across({1.0, 0.0, 0.0}, up);
+    const auto left = x ? x : unit_across({0.0, 0.0, 1.0}, up);
+    if (!axes || !left) return std::nullopt;
+    const Rotation turn = rotation_of_axes(glm::dmat3(*left, up, glm::cross(*left, up))) * glm::conjugate(*axes);
     for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
         if (scene.joints[joint].parent != kNone) continue;
         Transform& local = pose.locals[joint];
@@ -273,18 +304,18 @@ std::vector<Transform> with_turns(const Scene& scene, const RestFrames& pose) {
 }
 
 /// The heights of the lowest and the highest joint with a role.
-std::pair<double, double> heights_of(const Scene& scene, const RestFrames& pose) {
+std::pair<double, double> heights_of(const Scene& scene, const RestFrames& pose, const glm::dvec3& up) {
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -lowest;
     for (const RoleRecord& role : scene.roles) {
-        lowest = std::min(lowest, pose.position(role.joint).y);
-        highest = std::max(highest, pose.position(role.joint).y);
+        lowest = std::min(lowest, glm::dot(up, pose.position(role.joint)));
+        highest = std::max(highest, glm::dot(up, pose.position(role.joint)));
     }
     return {lowest, highest};
 }
 
 /// The ground of the clips if they move the body: where its lowest joint is in most frames; in jumps it is higher.
-std::optional<double> ground_of_clips(const Scene& scene, std::uint32_t hips) {
+std::optional<double> ground_of_clips(const Scene& scene, std::uint32_t hips, const glm::dvec3& up) {
     const auto moves_hips = [&](const Track& track) {
         if (track.path != TrackPath::translation) return false;
         std::uint32_t joint = hips;
@@ -297,24 +328,25 @@ std::optional<double> ground_of_clips(const Scene& scene, std::uint32_t hips) {
     if (!is_moved) return std::nullopt;
     std::vector<double> lows;
     visit_frames(scene, [&](const std::vector<Transform>& locals) {
-        lows.push_back(heights_of(scene, RestFrames(scene, locals)).first);
+        lows.push_back(heights_of(scene, RestFrames(scene, locals), up).first);
     });
     const auto quarter = lows.begin() + static_cast<std::ptrdiff_t>(lows.size() / 4);
     std::nth_element(lows.begin(), quarter, lows.end());
     return lows.empty() ? std::nullopt : std::optional(*quarter);
 }
 
-std::optional<StandingPose> make_standing_pose(const Scene& scene, const Humanoid& bones, const CandidatePose& from) {
+std::optional<StandingPose> make_standing_pose(const Scene& scene, const Humanoid& bones, const glm::dvec3& up,
+                                               const CandidatePose& from) {
     const RestFrames turned(scene, from.locals);
     const RestFrames pose(scene, with_turns(scene, turned));
-    const auto axes = axes_of(pose, bones, kUp);
+    const auto axes = axes_of(pose, bones, up);
     if (!axes) return std::nullopt;
     StandingPose standing;
     for (const RoleRecord& role : scene.roles)
         standing.rotations.push_back(standing_rotation(role.joint, to_record(turned.turn(role.joint))));
-    const auto [lowest, highest] = heights_of(scene, pose);
+    const auto [lowest, highest] = heights_of(scene, pose, up);
     constexpr double kNear = 0.05;  // of the height: feet dip into the ground
-    const double of_clips = ground_of_clips(scene, bones[Bone::hips]).value_or(lowest);
+    const double of_clips = ground_of_clips(scene, bones[Bone::hips], up).value_or(lowest);
     const double ground = std::abs(of_clips - lowest) < kNear * (highest - lowest) ? lowest : of_clips;
     if (!std::isfinite(highest - lowest) || !std::isfinite(ground)) return std::nullopt;
     standing.pose.axes = to_record(*axes);
@@ -324,20 +356,19 @@ std::optional<StandingPose> make_standing_pose(const Scene& scene, const Humanoi
     return standing;
 }
 
-bool does_stand(const Scene& scene, const Humanoid& bones, const std::optional<CandidatePose>& pose) {
-    if (!pose) return false;
-    const std::optional<Standing> standing = judge_stand(RestFrames(scene, pose->locals), bones, kUp);
+bool does_stand(const RestFrames& pose, const Humanoid& bones, const glm::dvec3& up) {
+    const std::optional<Standing> standing = judge_stand(pose, bones, up);
     return standing && standing->stands();
 }
 
 /// The pose to trust, if the rest pose does not stand.
-std::optional<CandidatePose> find_stand(const Scene& scene, const Humanoid& bones) {
-    std::optional<CandidatePose> pose = find_bind_pose(scene);
-    if (pose) pose = turn_upright(scene, bones, *std::move(pose));
-    if (does_stand(scene, bones, pose)) return pose;
-    pose = turn_upright(scene, bones, {StandingEvidence::rest_pose, rest_of(scene)});
-    if (does_stand(scene, bones, pose)) return pose;
-    return find_standing_frame(scene, bones);
+std::optional<CandidatePose> find_stand(const Scene& scene, const Humanoid& bones, const glm::dvec3& up) {
+    for (std::optional<CandidatePose> pose :
+         {find_bind_pose(scene), std::optional(CandidatePose{StandingEvidence::rest_pose, rest_of(scene)})}) {
+        if (pose) pose = turn_upright(scene, bones, up, *std::move(pose));
+        if (pose && does_stand(RestFrames(scene, pose->locals), bones, up)) return pose;
+    }
+    return find_standing_frame(scene, bones, up);
 }
 
 std::string why_not(const Standing& standing) {
@@ -352,9 +383,13 @@ std::string why_not(const Standing& standing) {
 void find_standing_pose(Scene& scene, Report& report) {
     if (scene.standing_pose || scene.roles.empty()) return;
     const Humanoid bones = humanoid_of(scene.roles);
-    const std::optional<Standing> rest = judge_stand(RestFrames(scene), bones, kUp);
-    if (!rest || rest->stands()) return;
-    if (const auto found = find_stand(scene, bones)) scene.standing_pose = make_standing_pose(scene, bones, *found);
+    const RestFrames frames(scene);
+    if (does_stand(frames, bones, {0.0, 1.0, 0.0})) return;
+    const glm::dvec3 up = find_up(scene, bones);
+    const std::optional<Standing> rest = judge_stand(frames, bones, up);
+    if (!rest || rest->stands()) return;  // the file has another axis up than glTF
+    if (const auto found = find_stand(scene, bones, up))
+        scene.standing_pose = make_standing_pose(scene, bones, up, *found);
     if (scene.standing_pose) return;
     report.warn(
         "the body does not stand in its rest pose (" + why_not(*rest) +

@@ -43,11 +43,18 @@ struct CandidatePose {
 /// The pose of the skins' bind matrices; joints that no skin binds rest. Nothing if that is the rest pose.
 std::optional<CandidatePose> find_bind_pose(const Scene& scene);
 
-/// The frame of all clips in which the human stands best with Y up. Nothing if there is none in which it is upright.
-std::optional<CandidatePose> find_standing_frame(const Scene& scene, const Humanoid& bones);
+/// The axis that points up in the scene's motions: the one near which the body's own up stays in its clips; Y if there
+/// is none.
+glm::dvec3 find_up(const Scene& scene, const Humanoid& bones);
 
-/// The pose turned as a whole so that the body's own up is Y and it faces Z. Nothing if it has no up or no left.
-std::optional<CandidatePose> turn_upright(const Scene& scene, const Humanoid& bones, CandidatePose pose);
+/// The frame of all clips in which the human stands best. Nothing if there is none in which it is upright.
+/// \param up  an axis
+std::optional<CandidatePose> find_standing_frame(const Scene& scene, const Humanoid& bones, const glm::dvec3& up);
+
+/// The pose turned as a whole so that the body is upright; with Y up it faces Z. Nothing if it has no up or no left.
+/// \param up  an axis
+std::optional<CandidatePose> turn_upright(const Scene& scene, const Humanoid& bones, const glm::dvec3& up,
+                                          CandidatePose pose);
 
 /// Sets Scene::standing_pose for a human whose rest pose does not stand; warns if no other pose stands either. Leaves
 /// the one that the scene has. Bind matrices are trusted first, then the rest pose turned upright, then the clips.
