@@ -411,6 +411,43 @@ class Retargeting(EditCase):
         self.assertIn("0.01 times as long", self.told)
 
 
+class Standing(EditCase):
+    """--stand, --stand-as and --strip standing-pose."""
+
+    def standing(self, path):
+        return [leaf for leaf in chunks_of(path) if leaf[0].endswith("/STND")]
+
+    def test_a_frame_of_a_clip_is_how_the_body_stands(self):
+        source = self.made("mannequin")
+        self.assertEqual(self.standing(source), [])
+        told = self.edit(source, "--stand", "Walk@0.35", name="told.bendy")
+        self.assertIn("the body stands as told", self.told)
+        self.assertEqual(len(self.standing(told)), 1)
+        back = self.edit(told, "--strip", "standing-pose", name="back.bendy")
+        self.assertEqual(back.read_bytes(), source.read_bytes())
+        self.assertEqual(len(self.standing(self.edit(source, "--stand-as", source))), 1)
+
+    def test_it_comes_back_from_gltf_and_from_a_rig_file(self):
+        source = self.made("mannequin")
+        told = self.edit(source, "--stand", "Walk@0.35", name="told.bendy")
+        self.done("export", told, "-o", "told.glb")
+        self.done("convert", "told.glb", "-o", "again.bendy")
+        self.assertEqual(self.standing(self.folder / "again.bendy"), self.standing(told))
+        self.done("rig", told, "-o", "told.rig.json")
+        self.done("convert", source, "--rig", "told.rig.json", "-o", "ruled.bendy")
+        self.assertEqual(self.standing(self.folder / "ruled.bendy"), self.standing(told))
+
+    def test_mistakes_are_explained(self):
+        source = self.made("mannequin")
+        for text in ("Walk", "Walk@", "Walk@soon"):
+            self.assertIn("is not CLIP@SECONDS", self.misused("edit", source, "-o", "x.bendy", "--stand", text))
+        for text, why in (("Walk@9", "is from 0"), ("Walk@nan", "is from 0"), ("Run@0", "Run")):
+            self.assertIn(why, self.failed("edit", source, "-o", "x.bendy", "--stand", text))
+        self.assertIn("has no joint", self.failed("edit", source, "-o", "x.bendy", "--stand-as", self.made("tentacle")))
+        self.assertIn("--role", self.failed("edit", self.made("tentacle"), "-o", "x.bendy", "--stand-as", source))
+        self.assertEqual(self.files(), [])
+
+
 class Merge(EditCase):
     CLIP = ["--clip", "Walk", "--time", "0.37"]
 
