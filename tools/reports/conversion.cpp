@@ -97,6 +97,10 @@ converter::ConvertOptions options_of(const ConvertArguments& arguments) {
     options.texture = arguments.texture;
     options.ticks_per_second = arguments.ticks_per_second;
     options.unit = arguments.unit;
+    options.up = arguments.up == "y"   ? converter::SourceUp::y
+                 : arguments.up == "z" ? converter::SourceUp::z
+                                       : converter::SourceUp::found;
+    options.faces_front = arguments.face == "front";
     options.merge_clips = arguments.merge_clips;
 #ifdef BENDY_AUTO_RIG
     options.auto_rig = arguments.auto_rig;

@@ -4,6 +4,7 @@
 #include "rigging/humanoid/find_roles.h"
 
 #include <bendy/converter/build_chunks.h>
+#include <bendy/converter/import.h>
 #include <bendy/format/document.h>
 #include <bendy/format/standing_pose.h>
 
@@ -233,6 +234,88 @@ TEST(StandingPose, ThatNobodyKnowsIsSaid) {
     EXPECT_FALSE(scene.standing_pose.has_value());
     EXPECT_EQ(warned(report, "a knee is bent by 7"), 1u);
     EXPECT_EQ(warned(report, "--stand CLIP@SECONDS"), 1u);
+}
+
+// --- up and front
+
+glm::dvec3 way_at_rest(const Scene& scene, const char* from, const char* to) {
+    const RestFrames frames(scene);
+    return *frames.direction(joint_named(scene, from), joint_named(scene, to));
+}
+
+TEST(Orient, ZBecomesYWhereTheClipsSaySo) {
+    for (const SourceUp up : {SourceUp::found, SourceUp::y, SourceUp::z}) {
+        Scene scene = human();
+        tip_over(scene, about({1, 0, 0}, 90.0));
+        scene.joints[joint_named(scene, "hips")].rest.translation = {0.25f, 0.5f, 1.0f};
+        scene.clips = {frame_of(rest_of(scene))};
+        Report report;
+        find_roles(scene, kNone, report);
+        orient(scene, up, false, report);
+        EXPECT_EQ(report.suggestions().size(), up == SourceUp::found ? 1u : 0u);
+        const bool is_turned = up != SourceUp::y;
+        EXPECT_NEAR(way_at_rest(scene, "hips", "head").y, is_turned ? 1.0 : 0.0, 1e-6);
+        const glm::vec3 place = scene.joints[joint_named(scene, "hips")].rest.translation;
+        EXPECT_EQ(place, is_turned ? glm::vec3(0.25f, 1.0f, -0.5f) : glm::vec3(0.25f, 0.5f, 1.0f));
+        for (const Track& track : scene.clips[0].tracks) {
+            if (track.target != joint_named(scene, "hips")) continue;
+            for (int k = 0; k < 4; ++k)
+                EXPECT_EQ(track.values.at(static_cast<std::size_t>(k)), scene.joints[track.target].rest.rotation[k]);
+        }
+    }
+}
+
+TEST(Orient, WhatHasYUpStays) {
+    Scene scene = human();
+    scene.clips = {frame_of(rest_of(scene))};
+    const std::vector<Transform> before = rest_of(scene);
+    Report report;
+    find_roles(scene, kNone, report);
+    orient(scene, SourceUp::found, true, report);
+    const std::vector<Transform> after = rest_of(scene);
+    for (std::size_t joint = 0; joint < after.size(); ++joint) EXPECT_EQ(after[joint].rotation, before[joint].rotation);
+    EXPECT_TRUE(report.suggestions().empty());
+}
+
+TEST(Orient, ACharacterIsTurnedToTheFrontIfThatIsAsked) {
+    for (const double degrees : {90.0, 180.0, -90.0, 70.0, -160.0}) {
+        for (const bool is_asked : {true, false}) {
+            Scene scene = human();
+            tip_over(scene, about(kUp, degrees));
+            Report report;
+            find_roles(scene, kNone, report);
+            const glm::dvec3 before = way_at_rest(scene, "leftFoot", "leftToes");
+            orient(scene, SourceUp::y, is_asked, report);
+            const glm::dvec3 after = way_at_rest(scene, "leftFoot", "leftToes");
+            if (is_asked) {
+                EXPECT_GT(after.z, 0.6) << degrees;
+                EXPECT_NEAR(after.y, before.y, 1e-6);
+            } else {
+                EXPECT_NEAR(glm::distance(before, after), 0.0, 1e-12);
+            }
+        }
+    }
+}
+
+TEST(Orient, ItSaysThatAnOldVrmShowsItsBack) {
+    Scene scene = human();
+    tip_over(scene, about(kUp, 180.0));
+    Report report;
+    find_roles(scene, kNone, report);
+    scene.extensions = R"({"VRM":{}})";
+    orient(scene, SourceUp::y, false, report);
+    ASSERT_EQ(report.suggestions().size(), 1u);
+    EXPECT_NE(report.suggestions()[0].find("--face front"), std::string::npos);
+}
+
+TEST(Orient, WhatNobodyKnowsIsNotTurned) {
+    Scene scene = *HumanoidGltf().build().import();
+    for (Joint& joint : scene.joints) joint.name.clear();
+    scene.joints.resize(3);
+    Report report;
+    find_roles(scene, kNone, report);
+    orient(scene, SourceUp::found, true, report);
+    EXPECT_EQ(warned(report, "--face front"), 1u);
 }
 
 }  // namespace

@@ -24,6 +24,10 @@ struct ConvertOptions {
     std::filesystem::path texture;
     /// Biovision files only: metres, see BvhOptions; 0: a centimetre. An error for other sources.
     double unit = 0.0;
+    /// Biovision files only. An error for other sources, unless `found`.
+    SourceUp up = SourceUp::found;
+    /// Turn the character about Y by a multiple of 90 degrees so that it faces +Z.
+    bool faces_front = false;
     /// Merge clips that move different properties, see docs/convert.md.
     bool merge_clips = false;
     /// A rig file (spec/rig.md): its constraints and chains override those of the source.

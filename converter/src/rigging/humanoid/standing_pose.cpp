@@ -2,6 +2,7 @@
 
 #include "clip_rotations.h"
 #include "scene/evaluate.h"
+#include "scene/turn_roots.h"
 
 #include <bendy/format/standing_pose.h>
 
@@ -379,6 +380,37 @@ std::string why_not(const Standing& standing) {
 }
 
 }  // namespace
+
+void orient(Scene& scene, SourceUp up, bool faces_front, Report& report) {
+    const glm::dmat3 z_to_y({1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {0.0, 1.0, 0.0});
+    const Humanoid bones = humanoid_of(scene.roles);
+    if (up == SourceUp::found && find_up(scene, bones).z > 0.5) {
+        turn_roots(scene, z_to_y);
+        report.suggest(
+            "the body stands along Z in its clips, so Z is taken as up and turned to Y: --up y leaves it as it is");
+    } else if (up == SourceUp::z) {
+        turn_roots(scene, z_to_y);
+    }
+    const glm::dvec3 y(0.0, 1.0, 0.0);
+    const RestFrames frames(scene);
+    const auto stand = own_up(frames, bones);
+    const auto axes = stand && glm::dot(*stand, y) > 0.8 ? axes_of(frames, bones, y) : std::nullopt;
+    if (!axes) {
+        if (faces_front) report.warn("--face front: no body that stands with Y up is found, so nothing is turned");
+        return;
+    }
+    const glm::dvec3 front = *axes * glm::dvec3(0.0, 0.0, 1.0);
+    if (front.z >= std::abs(front.x)) return;
+    if (!faces_front) {
+        if (scene.extensions.find("\"VRM\"") != std::string::npos)
+            report.suggest(
+                "the character faces -Z, as VRM 0 has it; viewers look at its back: --face front turns it to +Z");
+        return;
+    }
+    const double s = std::abs(front.x) > std::abs(front.z) ? (front.x > 0.0 ? -1.0 : 1.0) : 0.0;
+    const double c = s == 0.0 ? -1.0 : 0.0;
+    turn_roots(scene, glm::dmat3({c, 0.0, -s}, {0.0, 1.0, 0.0}, {s, 0.0, c}));
+}
 
 void find_standing_pose(Scene& scene, Report& report) {
     if (scene.standing_pose || scene.roles.empty()) return;

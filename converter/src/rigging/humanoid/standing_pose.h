@@ -3,6 +3,7 @@
 #include "humanoid.h"
 #include "scene/rest_frames.h"
 
+#include <bendy/converter/import.h>
 #include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>
 
@@ -55,6 +56,11 @@ std::optional<CandidatePose> find_standing_frame(const Scene& scene, const Human
 /// \param up  an axis
 std::optional<CandidatePose> turn_upright(const Scene& scene, const Humanoid& bones, const glm::dvec3& up,
                                           CandidatePose pose);
+
+/// Turns the scene as asked, or as the body in it says, and reports that. Fails if the clips are packed.
+/// \param up      the axis that is up in the source: Y, Z, or the one that find_up finds
+/// \param faces_front  the body is to face +Z, up to 45 degrees
+void orient(Scene& scene, SourceUp up, bool faces_front, Report& report);
 
 /// Sets Scene::standing_pose for a human whose rest pose does not stand; warns if no other pose stands either. Leaves
 /// the one that the scene has. Bind matrices are trusted first, then the rest pose turned upright, then the clips.

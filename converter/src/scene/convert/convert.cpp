@@ -40,6 +40,10 @@ void auto_rig(Scene& /*scene*/, const std::vector<bool>& /*claimed*/, Report& /*
 }
 void add_vrm_chains(Scene& /*scene*/, Report& /*report*/) {}
 void find_standing_pose(Scene& /*scene*/, Report& /*report*/) {}
+void orient(Scene& /*scene*/, SourceUp up, bool faces_front, Report& /*report*/) {
+    if (up == SourceUp::z || faces_front)
+        fail({}, "--up and --face need a program that was built with BENDY_AUTO_RIG=ON");
+}
 #endif
 
 /// Attaches the rig file in the scene's extras. Returns true if it is complete, so that other sources are ignored.
@@ -131,6 +135,8 @@ Result<Scene, ImportError> import_source(std::optional<Buffer> source, const std
     if (!importer.takes_texture && !options.texture.empty())
         return ImportError{{}, "a texture can be set for Quake II models only"};
     if (!importer.takes_unit && options.unit != 0.0) return ImportError{{}, "a unit can be set for BVH files only"};
+    if (!importer.takes_unit && options.up != SourceUp::found)
+        return ImportError{{}, "the axis that is up can be set for BVH files only"};
     auto scene = importer.import(*std::move(source), named, options, report);
     if (!scene) return scene;
     // If images are embedded, the remaining links are files that could not be read: they keep the source's URI.
@@ -145,6 +151,7 @@ Result<Scene, ImportError> import_source(std::optional<Buffer> source, const std
     if (!rig || !rig->complete || !rig->roles) find_roles(*scene, rig ? find_hips(*rig, index) : kNone, report);
     if (rig) attach_roles(*scene, *rig, index);
     if (rig) attach_standing_pose(*scene, *rig, index);
+    orient(*scene, importer.takes_unit ? options.up : SourceUp::y, options.faces_front, report);
     if (!rig || !rig->has_standing_pose) find_standing_pose(*scene, report);
     return scene;
 }
