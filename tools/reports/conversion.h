@@ -20,7 +20,7 @@ struct ConvertArguments : ConvertChoices {
     std::filesystem::path output;  ///< a file; a folder if there are several inputs
     std::filesystem::path depfile;
     bool exact = false;  ///< said, although it is the default
-    unsigned jobs = 0;  ///< files at a time, or threads for one file; 0: one per processor
+    unsigned jobs = 0;   ///< files at a time, or threads for one file; 0: one per processor
     bool force = false;
     bool json = false;
     bool quiet = false;
