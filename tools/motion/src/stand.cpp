@@ -113,9 +113,10 @@ Edited stand_as_in_clip(Bytes file, const std::string& clip, double seconds, edi
     const auto found = edit::find_named(names, clip, "clip");
     if (!found) return found.error();
     const Clip& which = model->clips()[found->front()];
-    if (!(seconds >= which.start && seconds <= which.end))
+    if (!(seconds >= which.start && seconds <= which.end)) {
         return Problem{"clip \"" + std::string(which.name) + "\" is from " + std::to_string(which.start) + " to " +
                        std::to_string(which.end) + " s"};
+    }
     Pose pose(*model);
     (void)sample(pose, &which, static_cast<float>(seconds));
     const std::vector<glm::dquat> turns = turns_of(pose);

@@ -373,7 +373,7 @@ std::optional<CandidatePose> find_stand(const Scene& scene, const Humanoid& bone
 }
 
 std::string why_not(const Standing& standing) {
-    const auto degrees = [](double angle) { return std::to_string(static_cast<int>(angle + 0.5)) + " degrees"; };
+    const auto degrees = [](double angle) { return std::to_string(std::lround(angle)) + " degrees"; };
     if (!standing.is_upright()) return "its trunk is " + degrees(standing.lean) + " from upright";
     if (standing.knees >= kBentKnee) return "a knee is bent by " + degrees(standing.knees);
     return "one foot is above the other";
@@ -402,9 +402,10 @@ void orient(Scene& scene, SourceUp up, bool faces_front, Report& report) {
     const glm::dvec3 front = *axes * glm::dvec3(0.0, 0.0, 1.0);
     if (front.z >= std::abs(front.x)) return;
     if (!faces_front) {
-        if (scene.extensions.find("\"VRM\"") != std::string::npos)
+        if (front.z < -std::abs(front.x) && scene.extensions.find("\"VRM\"") != std::string::npos) {
             report.suggest(
                 "the character faces -Z, as VRM 0 has it; viewers look at its back: --face front turns it to +Z");
+        }
         return;
     }
     const double s = std::abs(front.x) > std::abs(front.z) ? (front.x > 0.0 ? -1.0 : 1.0) : 0.0;

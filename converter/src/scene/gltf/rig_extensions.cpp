@@ -36,9 +36,10 @@ public:
         if (extension != nullptr) guard("chains left out", place, [&] { read_chains(*extension, place); });
         const std::string at_stand = "extensions." + std::string(kStandingPose);
         const Json* standing = find_extension(document_.json, kStandingPose);
-        if (standing != nullptr)
+        if (standing != nullptr) {
             guard("standing pose left out", at_stand,
                   [&] { scene_.standing_pose = read_standing_pose(*standing, at_stand); });
+        }
     }
 
 private:
