@@ -433,6 +433,7 @@ class Standing(EditCase):
         self.done("export", told, "-o", "told.glb")
         self.done("convert", "told.glb", "-o", "again.bendy")
         self.assertEqual(self.standing(self.folder / "again.bendy"), self.standing(told))
+        self.assertIn(b"the standing pose is left out", self.bendy("export", told, "-o", "told.x").stderr)
         self.done("rig", told, "-o", "told.rig.json")
         self.done("convert", source, "--rig", "told.rig.json", "-o", "ruled.bendy")
         self.assertEqual(self.standing(self.folder / "ruled.bendy"), self.standing(told))

@@ -168,10 +168,6 @@ std::vector<Transform> pose_at(const Scene& scene, const Clip& clip, double seco
     return locals;
 }
 
-}  // namespace
-
-namespace {
-
 /// Calls visit(locals) for frames of all clips, spread over each.
 template <class Visit>
 void visit_frames(const Scene& scene, Visit visit) {
@@ -180,7 +176,7 @@ void visit_frames(const Scene& scene, Visit visit) {
     constexpr std::size_t kMostJoints = 2'000'000;  // in all frames together
     std::size_t frames = std::min(kMostFrames, kMostJoints / std::max<std::size_t>(scene.joints.size(), 1));
     for (const Clip& clip : scene.clips) {
-        if (clip.tracks.empty()) continue;
+        if (clip.tracks.empty() || !clip.packed.empty()) continue;  // packed tracks are not in `tracks`
         const ClipSpan span = span_of(clip);
         const std::size_t steps = span.end > span.start ? kMostOfClip : 1;
         for (std::size_t step = 0; step < steps && frames > 0; ++step, --frames) {
@@ -189,10 +185,6 @@ void visit_frames(const Scene& scene, Visit visit) {
         }
     }
 }
-
-}  // namespace
-
-namespace {
 
 /// The body's own up: from hips to head, and from the feet to the hip joints.
 std::optional<glm::dvec3> own_up(const RestFrames& pose, const Humanoid& bones) {
@@ -317,11 +309,10 @@ std::pair<double, double> heights_of(const Scene& scene, const RestFrames& pose,
 
 /// The ground of the clips if they move the body: where its lowest joint is in most frames; in jumps it is higher.
 std::optional<double> ground_of_clips(const Scene& scene, std::uint32_t hips, const glm::dvec3& up) {
+    std::vector<bool> carries(scene.joints.size());
+    for (std::uint32_t joint = hips; joint != kNone; joint = scene.joints[joint].parent) carries[joint] = true;
     const auto moves_hips = [&](const Track& track) {
-        if (track.path != TrackPath::translation) return false;
-        std::uint32_t joint = hips;
-        while (joint != kNone && joint != track.target) joint = scene.joints[joint].parent;
-        return joint != kNone;
+        return track.path == TrackPath::translation && carries[track.target];
     };
     const bool is_moved = std::any_of(scene.clips.begin(), scene.clips.end(), [&](const Clip& clip) {
         return std::any_of(clip.tracks.begin(), clip.tracks.end(), moves_hips);
