@@ -1,6 +1,7 @@
 #include <bendy/motion/stand.h>
 
 #include <bendy/edit/edit.h>
+#include <bendy/format/diagnostics.h>
 #include <bendy/format/standing_pose.h>
 #include <bendy/runtime.h>
 

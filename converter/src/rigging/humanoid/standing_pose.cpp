@@ -2,6 +2,7 @@
 
 #include "clip_rotations.h"
 #include "scene/evaluate.h"
+#include "scene/frame_shapes.h"
 #include "scene/turn_roots.h"
 
 #include <bendy/format/standing_pose.h>

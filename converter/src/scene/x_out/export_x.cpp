@@ -239,9 +239,10 @@ XAsset export_bytes(Bytes bytes, const std::string& image_stem, Report& report, 
     if (!options.vertices.empty()) keep_level(*scene, options.vertices);
     for (std::size_t i = 0; i < scene->meshes.size(); ++i) merge_influences(scene->meshes[i], at("meshes", i), report);
     warn_of_lost_roles(*scene, report);
-    if (scene->standing_pose)
+    if (scene->standing_pose) {
         report.warn(
             "the standing pose is left out: an X-file has no place for it (`bendy rig` writes it to a rig file)");
+    }
     return x_out::write(*scene, image_stem, report);
 }
 
