@@ -50,7 +50,7 @@ test('the sizes in docs/web.md are the limits of scripts/web.sh', () => {
   const script = readFileSync(join(repository, 'scripts/web.sh'), 'utf8');
   const limits = [...script.matchAll(/^node embed\.mjs .* (\d+)$/gm)].map(([, bytes]) => bytes / 1000);
   const page = readFileSync(join(repository, 'docs/web.md'), 'utf8');
-  const sizes = [...page.matchAll(/(\d+) KB\b/g)].map(([, size]) => Number(size));
+  const sizes = [...page.matchAll(/([\d,]+) KB\b/g)].map(([, size]) => Number(size.replaceAll(',', '')));
   assert.deepEqual(new Set(sizes), new Set(limits));
 });
 
