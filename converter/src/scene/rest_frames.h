@@ -41,7 +41,7 @@ std::array<float, 4> to_record(const Rotation& rotation);
 class RestFrames {
 public:
     explicit RestFrames(const Scene& scene);
-    /// Of another pose in place of the rest pose.
+    /// Uses another pose in place of the rest pose.
     /// \param locals  by joint: the transform relative to the parent
     RestFrames(const Scene& scene, std::span<const Transform> locals);
 

@@ -24,7 +24,7 @@ public:
         const glm::dvec3 turned = matrix_ * glm::dvec3(v[0], v[1], v[2]);
         for (int k = 0; k < 3; ++k) v[static_cast<std::size_t>(k)] = static_cast<float>(turned[k]);
     }
-    /// Of any length, as tangents of rotations have.
+    /// Its length need not be 1: tangents of rotations have any.
     void quaternion(std::span<float> xyzw) const {
         const Rotation turned = turn_ * Rotation(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
         xyzw[0] = static_cast<float>(turned.x);

@@ -149,6 +149,16 @@ TEST(StandingPose, IsUprightAsTheMotionsAre) {
     EXPECT_NE(hips.rotation, upright.rotation);
 }
 
+/// Places that no float holds: the file is converted without a standing pose.
+TEST(StandingPose, IsNotStoredIfItsNumbersAreTooLarge) {
+    Scene scene = human();
+    tip_over(scene, about({1, 0, 0}, -90.0));
+    for (Joint& joint : scene.joints) joint.rest.translation *= 3e38f;
+    Report report;
+    find(scene, report);
+    EXPECT_FALSE(scene.standing_pose.has_value());
+}
+
 TEST(StandingPose, SaysWhereTheBodyLooks) {
     Scene scene = human();
     tip_over(scene, about({1, 0, 0}, -90.0));

@@ -45,7 +45,7 @@ struct ConvertOptions {
     /// Leave out per-vertex data that no material uses, such as texture coordinates, and merge the vertices that then
     /// differ in nothing; see docs/convert.md. The report lists what was left out.
     bool drop_unused = false;
-    /// Exact on purpose: there is no suggestion to write a compact source as a compact file again.
+    /// The caller wants exact numbers: do not suggest --compact for a compact source.
     bool exact = false;
     /// Encode for size: no point of the skin moves further than this. Nothing: exact.
     std::optional<ErrorBound> compact;

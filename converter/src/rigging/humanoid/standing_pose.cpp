@@ -321,7 +321,8 @@ std::optional<double> ground_of_clips(const Scene& scene, std::uint32_t hips, co
     if (!is_moved) return std::nullopt;
     std::vector<double> lows;
     visit_frames(scene, [&](const std::vector<Transform>& locals) {
-        lows.push_back(heights_of(scene, RestFrames(scene, locals), up).first);
+        const double low = heights_of(scene, RestFrames(scene, locals), up).first;
+        if (std::isfinite(low)) lows.push_back(low);
     });
     const auto quarter = lows.begin() + static_cast<std::ptrdiff_t>(lows.size() / 4);
     std::nth_element(lows.begin(), quarter, lows.end());
@@ -341,10 +342,10 @@ std::optional<StandingPose> make_standing_pose(const Scene& scene, const Humanoi
     constexpr double kNear = 0.05;  // of the height: feet dip into the ground
     const double of_clips = ground_of_clips(scene, bones[Bone::hips], up).value_or(lowest);
     const double ground = std::abs(of_clips - lowest) < kNear * (highest - lowest) ? lowest : of_clips;
-    if (!std::isfinite(highest - lowest) || !std::isfinite(ground)) return std::nullopt;
     standing.pose.axes = to_record(*axes);
     standing.pose.ground = static_cast<float>(ground);
     standing.pose.height = static_cast<float>(highest - lowest);
+    if (!std::isfinite(standing.pose.ground) || !std::isfinite(standing.pose.height)) return std::nullopt;
     standing.pose.evidence = static_cast<std::uint8_t>(from.evidence);
     return standing;
 }

@@ -108,7 +108,7 @@ public:
     static std::optional<BasicJson> parse(std::string_view text, JsonFault* fault = nullptr);
     static constexpr std::size_t kMostLevels = 1000;
 
-    /// What dump does with strings that are not valid UTF-8.
+    /// How dump handles strings that are not valid UTF-8.
     enum class InvalidText : std::uint8_t { refused, replaced };
     /// \param indentation  -1: all on one line
     /// \param is_ascii  all else as \\uXXXX
