@@ -21,6 +21,8 @@ struct HumanSpec {
     double hip_width = 0.2;
     std::uint32_t spine = 3;
     bool is_detached = false;  ///< legs are not below the hips, feet not below the legs
+    /// Of a detached one: they hang on a control beside the hips.
+    bool has_loose_arms = false, has_loose_spine = false;
     bool has_neck = true, has_toes = true, has_fingers = true;
     unsigned axes = 1;  ///< of the joints: other ones for another number; 0: as model space
     bool has_roles = true;
@@ -34,6 +36,7 @@ public:
     explicit HumanModel(const HumanSpec& human)
         : BodyModel({human.facing, human.is_z_up, human.axes, human.prefix}), human_(human) {
         add_trunk();
+        if (human_.has_loose_arms) chest_ = add("arms", 0, {0, 1, -0.5}, Role::none);
         for (const double side : {1.0, -1.0}) add_arm(side);
         for (const double side : {1.0, -1.0}) add_leg(side);
         if (human.has_roles) store_roles();
@@ -44,6 +47,7 @@ private:
         const double hips = human_.thigh + human_.shin + 0.08;
         trunk_ = add("hips", 0, {0, hips + 0.05, 0}, Role::hips);
         hips_ = trunk_;
+        if (human_.has_loose_spine) trunk_ = add("control", 0, {0, hips, -0.5}, Role::none);
         const Role roles[] = {Role::spine, Role::chest, Role::upper_chest};
         for (std::uint32_t k = 0; k < human_.spine; ++k) {
             const double height = hips + 0.1 + 0.4 * k / human_.spine;
@@ -62,7 +66,7 @@ private:
         const double height = human_.thigh + human_.shin + 0.58;
         const glm::dvec3 shoulder(side * 0.16, height, 0.0);
         const std::uint32_t clavicle =
-            add(name + "Shoulder", trunk_, {side * 0.03, height, 0.02}, of(side, Role::left_shoulder));
+            add(name + "Shoulder", human_.has_loose_arms ? chest_ : trunk_, {side * 0.03, height, 0.02}, of(side, Role::left_shoulder));
         const std::uint32_t upper = add(name + "Arm", clavicle, shoulder, of(side, Role::left_upper_arm));
         const std::uint32_t lower = add(name + "ForeArm", upper, shoulder + 0.28 * way, of(side, Role::left_lower_arm));
         spec.joints[lower].constraints = human_.elbows;
@@ -105,7 +109,7 @@ private:
     }
 
     HumanSpec human_;
-    std::uint32_t trunk_ = 0, hips_ = 0;
+    std::uint32_t trunk_ = 0, hips_ = 0, chest_ = 0;
 };
 
 }  // namespace bendy::test

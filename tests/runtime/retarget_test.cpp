@@ -58,6 +58,8 @@ TEST(Retarget, LimbsHaveTheSourcesDirections) {
         {.arms_down = 50.0, .axes = 5},
         {.thigh = 0.3, .shin = 0.5, .hip_width = 0.3, .axes = 6},
         {.facing = 90.0, .is_detached = true, .axes = 8},
+        {.is_detached = true, .has_loose_arms = true, .axes = 9},
+        {.facing = 90.0, .is_detached = true, .has_loose_spine = true, .axes = 10},
         {.facing = 180.0,
          .is_z_up = true,
          .arms_down = 30.0,
@@ -111,6 +113,30 @@ TEST(Retarget, AnArmThatHangsAtRestTurnsAboutItsAxisAsOneThatIsStretchedOut) {
     EXPECT_LT(angle_of(target.turn("leftArm"), lifted), 1e-5);
     EXPECT_LT(angle_of(target.turn("leftHand"), glm::angleAxis(40.0 * M_PI / 180.0, glm::dvec3(1, 0, 0)) * lifted),
               1e-5);
+}
+
+TEST(Retarget, PartsThatHangOnAControlGoWithTheBody) {
+    for (const HumanSpec& spec :
+         {HumanSpec{.is_detached = true, .has_loose_arms = true, .axes = 2},
+          HumanSpec{.is_detached = true, .has_loose_spine = true, .axes = 3},
+          HumanSpec{.is_detached = true, .has_loose_arms = true, .has_loose_spine = true, .axes = 4}}) {
+        Human source(HumanSpec{}), target(spec);
+        const std::vector<std::pair<std::string, std::string>> kSeams{
+            {"hips", "spine0"}, {"spine2", "leftShoulder"}, {"spine2", "rightShoulder"}, {"spine2", "neck"}};
+        const auto place_on = [&](const std::string& carrier, const std::string& joint) {
+            return glm::conjugate(target.turn(carrier)) * (target.place(joint) - target.place(carrier));
+        };
+        std::vector<glm::dvec3> rest;
+        for (const auto& [carrier, joint] : kSeams) rest.push_back(place_on(carrier, joint));
+        Retarget retargeted = made(source, target, kDirections);
+        for (unsigned seed = 0; seed < 10; ++seed) {
+            source.pose_at_random(seed, 0.4);
+            RetargetState state;
+            ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+            for (std::size_t k = 0; k < kSeams.size(); ++k)
+                EXPECT_LT(glm::length(place_on(kSeams[k].first, kSeams[k].second) - rest[k]), 2e-5) << kSeams[k].second;
+        }
+    }
 }
 
 TEST(Retarget, TheHipsTravelWithTheLengthOfTheLegs) {

@@ -191,12 +191,34 @@ private:
         std::reverse(hips.above.begin(), hips.above.end());
     }
 
+    /// Joints of the body that hang on something else, as on controls of a rig, stay where they are on their carrier.
     void find_detached() {
+        const std::uint32_t hips = target_.joint(Role::hips);
+        if (plan_.is_human) find_detached_trunk(hips);
         for (std::size_t k = 0; k < target_.limbs().size(); ++k) {
             const Limb& limb = target_.limbs()[k];
-            if (k < 2) add_detached(target_.joint(Role::hips), limb.upper());
+            if (k < 2) add_detached(hips, limb.upper());
             for (std::size_t j = 1; j < limb.joints.size(); ++j) add_detached(limb.joints[j - 1], limb.joints[j]);
         }
+    }
+
+    void find_detached_trunk(std::uint32_t hips) {
+        std::vector<std::uint32_t> body{hips};
+        const auto follow = [&](std::uint32_t carrier, std::initializer_list<Role> roles) {
+            for (const std::uint32_t joint : target_.joints(roles)) {
+                const bool is_carried = std::any_of(body.begin(), body.end(), [&](std::uint32_t one) {
+                    return links_between(one, joint) != 0;
+                });
+                if (!is_carried) add_detached(carrier, joint);
+                body.push_back(joint);
+                carrier = joint;
+            }
+            return carrier;
+        };
+        const std::uint32_t chest = follow(hips, {Role::spine, Role::chest, Role::upper_chest});
+        follow(chest, {Role::neck, Role::head});
+        follow(chest, {Role::left_shoulder, Role::left_upper_arm});
+        follow(chest, {Role::right_shoulder, Role::right_upper_arm});
     }
 
     void add_detached(std::uint32_t carrier, std::uint32_t joint) {

@@ -366,6 +366,47 @@ TEST(FindRoles, HipsCarryTheLegsAndTheSpine) {
     EXPECT_EQ(roles_of(human).at("hips"), "hips");
 }
 
+TEST(FindRoles, TheThighIsTheJointAboveTheKnee) {
+    for (const double out : {0.0, 0.1}) {  // CMU's dummy joint is in the hips, or has a length
+        HumanoidGltf human;
+        for (const double side : {1.0, -1.0}) {
+            const std::string s = side > 0 ? "left" : "right";
+            human.add(s + "Dummy", "hips", {side * out, 0.97, 0});
+            human[s + "UpperLeg"].parent = s + "Dummy";
+            human.names[s + "Dummy"] = side > 0 ? "LHipJoint" : "RHipJoint";
+            human.names[s + "UpperLeg"] = side > 0 ? "LeftHip" : "RightHip";
+            human.names[s + "LowerLeg"] = side > 0 ? "LeftKnee" : "RightKnee";
+        }
+        const Roles roles = roles_of(human);
+        EXPECT_EQ(roles.at("left_upper_leg"), "LeftHip");
+        EXPECT_EQ(roles.at("right_upper_leg"), "RightHip");
+        EXPECT_EQ(roles.at("hips"), "hips");
+    }
+}
+
+TEST(FindRoles, PartsOfTheBodyMayHangOnControlsBesideTheSpine) {
+    HumanoidGltf human;
+    human.bones.insert(human.bones.begin(), {"upper_ctrl", "", {0, 1.3, 0}});
+    for (const char* side : {"left", "right"}) {
+        human[std::string(side) + "UpperArm"].parent = "upper_ctrl";
+        std::erase_if(human.bones, [&](const HumanoidGltf::Bone& bone) { return bone.name == std::string(side) + "Shoulder"; });
+    }
+    Roles roles = roles_of(human);
+    EXPECT_EQ(roles.at("left_upper_arm"), "leftUpperArm");
+    EXPECT_EQ(roles.at("chest"), "chest");
+    human["spine"].parent = "upper_ctrl";  // and so does the spine
+    roles = roles_of(human);
+    EXPECT_EQ(roles.at("hips"), "hips");
+    EXPECT_EQ(roles.at("spine"), "spine");
+    EXPECT_EQ(roles.at("right_hand"), "rightHand");
+    human["upper_ctrl"].position.x = 3.0;
+    for (const char* side : {"left", "right"}) {
+        for (const char* bone : {"UpperArm", "LowerArm", "Hand"})
+            human[std::string(side) + bone].position.x += 3.0;  // arms of something else
+    }
+    EXPECT_EQ(roles_of(human), Roles());
+}
+
 TEST(FindRoles, TailsAndWingsOfAHuman) {
     HumanoidGltf demon;
     demon.add("tail1", "hips", {0, 0.95, -0.1});

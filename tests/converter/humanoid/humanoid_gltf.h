@@ -1,9 +1,12 @@
 #pragma once
 
 #include "../gltf/build_gltf.h"
+#include "scene/rest_frames.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
 #include <cmath>
@@ -124,6 +127,23 @@ inline std::uint32_t joint_named(const Scene& scene, const std::string& name) {
     }
     ADD_FAILURE() << "no joint " << name;
     return 0;
+}
+
+/// Adds a mesh of one vertex that all joints are bound to where they rest.
+inline void bind_at_rest(Scene& scene) {
+    Mesh mesh;
+    mesh.influences = 1;
+    mesh.positions.resize(3);
+    mesh.bones.assign(3, 0);
+    mesh.weights.assign(3, 1.0f);
+    const RestFrames frames(scene);
+    for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+        mesh.palette.joints.push_back(joint);
+        const glm::dmat4 bind =
+            glm::translate(glm::dmat4(1.0), frames.position(joint)) * glm::mat4_cast(frames.turn(joint));
+        mesh.palette.inverse_bind.emplace_back(glm::inverse(bind));
+    }
+    scene.meshes.push_back(mesh);
 }
 
 inline const Chain* find_chain(const Scene& scene, const std::string& name) {

@@ -141,6 +141,7 @@ struct ProposedConstraint {
     double axis_off = 0.0;        ///< degrees between the bend's axis and the anatomical one
     double growth = 0.0;          ///< largest number of degrees by which the clips widen the typical range at one end
     double beyond = 0.0;          ///< degrees by which the clips exceed the widest allowed range
+    std::optional<std::size_t> farthest_clip;  ///< of those that exceed it, the one that turns the joint farthest
 };
 
 /// Proposes limits from the joints' anatomy, fitted to the scene's own clips. A bend's axis is the one about which the

@@ -1,12 +1,14 @@
 #include "auto_rig.h"
 
 #include "anatomy.h"
+#include "animal.h"
 #include "clip_rotations.h"
 #include "find_body.h"
 #include "find_humanoid.h"
 #include "humanoid.h"
 #include "limb_chains.h"
-#include "quadruped.h"
+#include "posture.h"
+#include "scene/failure.h"
 #include "scene/rest_frames.h"
 
 #include <bendy/format/trig.h>
@@ -256,7 +258,16 @@ private:
     std::array<std::optional<ProposedBend>, kLimbs> bends_;
 };
 
-/// Adds limits for joints that have none.
+constexpr double kNotItsLimit = 30.0;  // degrees by which clips leave what is no limit of this joint
+
+/// What clips do to a joint that leaves its limit.
+std::string beyond_of(const Scene& scene, const ProposedConstraint& proposed) {
+    const std::string clip = proposed.farthest_clip ? quote(scene.clips[*proposed.farthest_clip].name) : "?";
+    return "clip " + clip + " turns the joint by " + std::to_string(std::lround(proposed.beyond)) +
+           " degrees more than such a joint can turn";
+}
+
+/// Adds limits for joints that have none, and that their clips do not leave by far.
 /// \param whose  see proposal_of
 void add_limits(Scene& scene, const RestFrames& rest, const ClipRotations& clips,
                 const std::vector<JointAnatomy>& anatomy, const glm::dvec3& left, const std::string& whose,
@@ -264,20 +275,34 @@ void add_limits(Scene& scene, const RestFrames& rest, const ClipRotations& clips
     for (const ProposedConstraint& proposed : fit_to_clips(scene, rest, clips, anatomy, left, report)) {
         Joint& joint = scene.joints[proposed.anatomy.joint];
         if (!joint.constraints.empty() || (!claimed.empty() && claimed[proposed.anatomy.joint])) continue;
+        const std::string place = name_of(scene, proposed.anatomy.joint);
+        const std::string turned = beyond_of(scene, proposed);
+        if (proposed.beyond > kNotItsLimit) {
+            report.warn("auto-rig: no limit proposed, since " + turned, place);
+            continue;
+        }
         joint.constraints.push_back(proposed.constraint);
         report.propose(proposal_of(scene, proposed, whose));
-        if (proposed.beyond > 0.5) {
-            report.warn("auto-rig: clips turn the joint by up to " + std::to_string(std::lround(proposed.beyond)) +
-                            " degrees more than such a joint can turn, and leave its proposed limit",
-                        name_of(scene, proposed.anatomy.joint));
-        }
+        if (proposed.beyond > 0.5) report.warn("auto-rig: " + turned + ", and leaves its proposed limit", place);
     }
 }
 
-void rig_quadruped(Scene& scene, const RestFrames& rest, const ClipRotations& clips, const Quadruped& animal,
-                   const std::vector<bool>& claimed, Report& report) {
-    for (const std::size_t chain : add_new_chains(scene, make_quadruped_chains(scene, rest, animal, kProposed)))
+/// The animal's axes where they are at rest, if it was found in another pose.
+Stance at_rest(const RestFrames& rest, const RestFrames& pose, const Animal& animal) {
+    const std::uint32_t joint = animal.legs.front().front();
+    const glm::dquat turn = rest.turn(joint) * glm::conjugate(pose.turn(joint));
+    return {turn * animal.stance.left, turn * animal.stance.up, turn * animal.stance.forward};
+}
+
+/// Bodies of more than four legs get chains, but no limits: nobody says what theirs are.
+void rig_animal(Scene& scene, const RestFrames& rest, const ClipRotations& clips, const FoundBody& body,
+                const std::vector<bool>& claimed, Report& report) {
+    Animal animal = *body.animal;
+    const RestFrames pose = body.frames(scene);
+    for (const std::size_t chain : add_new_chains(scene, make_animal_chains(scene, pose, animal, kProposed)))
         report.propose(proposal_of(scene, scene.chains[chain], std::nullopt, animal.stance));
+    if (animal.legs.size() != kFourLegs) return;
+    if (!body.pose.empty()) animal.stance = at_rest(rest, pose, animal);
     add_limits(scene, rest, clips, find_anatomy(rest, animal), animal.stance.left, "an animal's", claimed, report);
 }
 
@@ -304,6 +329,8 @@ void rig_human(Scene& scene, const RestFrames& rest, const ClipRotations& clips,
     for (Chain& chain : chains) bends.turn_pole(chain);
     for (const std::size_t chain : add_new_chains(scene, std::move(chains)))
         report.propose(proposal_of(scene, scene.chains[chain], bends.of(scene.chains[chain]), stance));
+    if (found.has_front_legs)
+        return report.warn("auto-rig: front legs are not a human's arms, no limits proposed");
     if (!posture->is_upright)
         return report.warn("auto-rig: the spine does not go up from the legs as a human's, no limits proposed");
     add_limits(scene, rest, clips, find_anatomy(scene, rest, found, stance), stance.left, "a human's", claimed, report);
@@ -320,8 +347,8 @@ void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report) {
         found.bones = vrm->bones;
         return rig_human(scene, rest, clips, found, claimed, report);
     }
-    const FoundBody body = find_body(scene, rest, clips, std::vector<bool>(scene.joints.size(), true));
-    if (body.animal) return rig_quadruped(scene, rest, clips, *body.animal, claimed, report);
+    const FoundBody body = find_body(scene, clips, std::vector<bool>(scene.joints.size(), true));
+    if (body.animal) return rig_animal(scene, rest, clips, body, claimed, report);
     rig_human(scene, rest, clips, body.human, claimed, report);
 }
 

@@ -104,18 +104,25 @@ void add_details(const Scene& scene, const RestFrames& rest, Humanoid& bones) {
     add_face(scene, rest, bones);
 }
 
+bool is_finger(const std::string& name) {
+    return finger_of(NameWords(name)).has_value();
+}
+
 std::uint32_t find_split_hand(const Scene& scene, const RestFrames& rest, std::uint32_t forearm) {
-    std::array<std::uint32_t, 5> hand{kNone, kNone, kNone, kNone, kNone};  // by the finger that it carries
+    constexpr std::array<std::uint32_t, 5> kNobody{kNone, kNone, kNone, kNone, kNone};
+    std::array<std::uint32_t, 5> palms = kNobody, fingers = kNobody;  // by the finger that they carry, or are
     std::uint32_t branch = kNone;
     for (std::uint32_t joint = forearm + 1; joint < scene.joints.size() && rest.is_below(joint, forearm); ++joint) {
         if (scene.joints[joint].parent == forearm) branch = joint;
         const std::optional<Finger> finger = finger_of(NameWords(scene.joints[joint].name));
-        if (finger && joint != branch && hand[static_cast<std::size_t>(*finger)] == kNone)
-            hand[static_cast<std::size_t>(*finger)] = branch;
+        if (!finger) continue;
+        auto& found = is_finger(scene.joints[branch].name) ? fingers : palms;
+        if (found[static_cast<std::size_t>(*finger)] == kNone) found[static_cast<std::size_t>(*finger)] = branch;
     }
-    for (const Finger finger : {Finger::middle, Finger::ring, Finger::index}) {
-        const std::uint32_t joint = hand[static_cast<std::size_t>(finger)];
-        if (joint != kNone && !finger_of(NameWords(scene.joints[joint].name))) return joint;
+    for (const auto& found : {palms, fingers}) {
+        for (const Finger finger : {Finger::middle, Finger::ring, Finger::index}) {
+            if (found[static_cast<std::size_t>(finger)] != kNone) return found[static_cast<std::size_t>(finger)];
+        }
     }
     return kNone;
 }

@@ -114,6 +114,24 @@ ClipRotations::OfJoint ClipRotations::of(std::uint32_t joint) const {
     return result;
 }
 
+std::optional<std::size_t> ClipRotations::farthest_clip(const std::vector<std::uint32_t>& joints) const {
+    std::optional<std::size_t> farthest;
+    double most = 0.0;
+    std::vector<double> numbers;
+    for (const std::uint32_t joint : joints) {
+        const glm::dquat rest = rest_rotation(scene_.joints[joint]);
+        for (const auto& [clip, track] : tracks_[joint]) {
+            for (const float time : track->times) {
+                const std::optional<glm::dquat> q = rotation_at(*track, time, numbers);
+                if (!q || !(angle_between(rest, *q) > most)) continue;
+                most = angle_between(rest, *q);
+                farthest = clip;
+            }
+        }
+    }
+    return farthest;
+}
+
 std::optional<ClipRotations::Bend> ClipRotations::bend_of(const Limb& limb) const {
     constexpr std::size_t kMostTimes = 4096;  // for all clips together
     std::vector<std::uint32_t> path;          // from the end up to the start

@@ -27,6 +27,9 @@ public:
     /// Every key, with intermediate rotations where keys are more than 5 degrees apart, so that neighbours are not.
     [[nodiscard]] OfJoint of(std::uint32_t joint) const;
 
+    /// The clip whose keys turn one of the joints farthest from rest; nothing if none does.
+    [[nodiscard]] std::optional<std::size_t> farthest_clip(const std::vector<std::uint32_t>& joints) const;
+
     /// Two bones: `start`, `middle` below it, and a tip fixed to `end`, which is `middle` or below it.
     struct Limb {
         std::uint32_t start = kNone;

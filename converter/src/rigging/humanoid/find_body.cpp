@@ -1,6 +1,8 @@
 #include "find_body.h"
 
-#include <glm/geometric.hpp>
+#include "complete_human.h"
+#include "posture.h"
+#include "standing_pose.h"
 
 #include <array>
 #include <cstddef>
@@ -68,91 +70,48 @@ NamedHumanoid find_the_rest(const Scene& scene, const RestFrames& rest, const Cl
     return has_all_limbs(among_all.bones) ? among_all : named;
 }
 
-class Measurer {
-public:
-    Measurer(const RestFrames& rest, const NamedHumanoid& found) : rest_(rest), found_(found) {}
-
-    [[nodiscard]] std::optional<Posture> measure() const {
-        const auto arms = line(Bone::right_upper_arm, Bone::left_upper_arm);
-        const auto legs = line(Bone::right_upper_leg, Bone::left_upper_leg);
-        if (!arms && !legs) return std::nullopt;
-        const auto left = unit((arms ? *arms : glm::dvec3(0.0)) + (legs ? *legs : glm::dvec3(0.0)));
-        const auto stands = up_from_legs();
-        const auto spine = up_spine();
-        if (!left || (!stands && !spine)) return std::nullopt;
-        Posture posture;
-        posture.is_upright = !stands || !spine || glm::dot(*stands, *spine) > kUpright;
-        const auto up = unit_across(posture.is_upright && spine ? *spine : *stands, *left);
-        if (!up) return std::nullopt;
-        posture.stance = {*left, *up, glm::cross(*left, *up)};
-        posture.has_feet_forward = has_feet_forward(posture.stance);
-        return posture;
-    }
-
-private:
-    [[nodiscard]] bool has_feet_forward(const Stance& stance) const {
-        for (const auto& [foot, toes] :
-             {std::pair(Bone::left_foot, Bone::left_toes), std::pair(Bone::right_foot, Bone::right_toes)}) {
-            const auto direction = line(foot, toes);
-            if (direction && glm::dot(*direction, stance.forward) < -0.3) return false;
-        }
-        return true;
-    }
-
-    static constexpr double kUpright = 0.7;  // cosine: 45 degrees
-
-    [[nodiscard]] std::optional<glm::dvec3> line(Bone from, Bone to) const {
-        if (!found_.bones.has(from) || !found_.bones.has(to)) return std::nullopt;
-        return rest_.direction(found_.bones[from], found_.bones[to]);
-    }
-
-    [[nodiscard]] std::optional<glm::dvec3> up_from_legs() const {
-        glm::dvec3 sum(0.0);
-        for (const Limb leg : {Limb::left_leg, Limb::right_leg}) {
-            const LimbBones bones = bones_of(leg);
-            if (!found_.bones.has(bones.upper) || !found_.bones.has(bones.lower)) continue;
-            const std::optional<glm::dvec3> end = end_of(found_, rest_, leg);
-            const glm::dvec3 foot = end ? *end : rest_.position(found_.bones[bones.lower]);
-            if (const auto up = unit(rest_.position(found_.bones[bones.upper]) - foot)) sum += *up;
-        }
-        return unit(sum);
-    }
-
-    [[nodiscard]] std::optional<glm::dvec3> up_spine() const {
-        for (const Bone top : {Bone::neck, Bone::head}) {
-            for (const Bone bottom : {Bone::hips, Bone::spine}) {
-                if (const auto up = line(bottom, top)) return up;
-            }
-        }
-        return std::nullopt;
-    }
-
-    const RestFrames& rest_;
-    const NamedHumanoid& found_;
-};
-
-/// Whether the names give both arms and legs of a body whose spine goes up from the legs.
+/// Whether the names give both arms and legs of a body whose spine goes up from the legs. Front legs may be an animal's.
 bool is_upright_human(const RestFrames& rest, const NamedHumanoid& named) {
-    if (!has_all_limbs(named.bones)) return false;
+    if (!has_all_limbs(named.bones) || named.has_front_legs) return false;
     const std::optional<Posture> posture = measure_posture(rest, named);
     return posture && posture->is_upright;
 }
 
-}  // namespace
-
-std::optional<Posture> measure_posture(const RestFrames& rest, const NamedHumanoid& found) {
-    return Measurer(rest, found).measure();
-}
-
-FoundBody find_body(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
-                    const std::vector<bool>& among) {
+FoundBody find_in_pose(const Scene& scene, const RestFrames& pose, const ClipRotations& clips,
+                       const std::vector<bool>& among) {
     FoundBody body;
     std::vector<bool> bound = find_bound_joints(scene);
     for (std::size_t joint = 0; joint < bound.size(); ++joint) bound[joint] = bound[joint] && among[joint];
-    body.human = find_humanoid(scene, rest, bound);
-    if (!is_upright_human(rest, body.human)) body.animal = find_quadruped(scene, rest, bound);
-    if (!body.animal) body.human = find_the_rest(scene, rest, clips, bound, among, body.human);
+    const NamedHumanoid named = find_humanoid(scene, pose, bound);
+    if (!is_upright_human(pose, named)) body.animal = find_animal(scene, pose, bound);
+    if (body.animal && body.animal->legs.size() == kFourLegs) return body;
+    // Coats reach the ground, too: what has more legs may be a human.
+    body.human = find_the_rest(scene, pose, clips, bound, among, named);
+    body.whole_human = complete_human(scene, pose, body.human);
+    if (body.whole_human) body.animal.reset();
     return body;
+}
+
+}  // namespace
+
+FoundBody find_body(const Scene& scene, const ClipRotations& clips, const std::vector<bool>& among) {
+    FoundBody at_rest = find_in_pose(scene, RestFrames(scene), clips, among);
+    if (at_rest.is_whole()) return at_rest;
+    const auto find_in = [&](CandidatePose pose) {
+        FoundBody body = find_in_pose(scene, RestFrames(scene, pose.locals), clips, among);
+        body.pose = std::move(pose.locals);
+        return body;
+    };
+    for (CandidatePose& pose : find_bind_poses(scene)) {
+        FoundBody body = find_in(std::move(pose));
+        if (body.is_whole()) return body;
+    }
+    const Humanoid& named = at_rest.human.bones;
+    if (auto pose = find_standing_frame(scene, named, find_up(scene, named))) {
+        FoundBody body = find_in(*std::move(pose));
+        if (body.is_whole()) return body;
+    }
+    return at_rest;
 }
 
 }  // namespace bendy::converter

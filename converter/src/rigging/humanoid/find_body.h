@@ -1,9 +1,8 @@
 #pragma once
 
+#include "animal.h"
 #include "clip_rotations.h"
 #include "find_humanoid.h"
-#include "limb_chains.h"
-#include "quadruped.h"
 #include "scene/rest_frames.h"
 
 #include <bendy/converter/scene.h>
@@ -13,27 +12,25 @@
 
 namespace bendy::converter {
 
-/// The body in a skeleton: a four-legged animal, or else what there is of a human.
+/// The body in a skeleton: an animal, or else what there is of a human.
 struct FoundBody {
-    std::optional<Quadruped> animal;
+    std::optional<Animal> animal;
     NamedHumanoid human;
+    std::optional<Humanoid> whole_human;
+    /// By joint, relative to its parent: the pose in which a whole body was found, if that is not the rest pose.
+    std::vector<Transform> pose;
+
+    [[nodiscard]] bool is_whole() const { return animal || whole_human; }
+    /// The joints' places in that pose.
+    [[nodiscard]] RestFrames frames(const Scene& scene) const {
+        return pose.empty() ? RestFrames(scene) : RestFrames(scene, pose);
+    }
 };
 
 /// Looks for a human by names; if that does not give an upright body with all limbs, for an animal, and for the missing
-/// parts of a human by shape.
+/// parts of a human by shape. Where the rest pose does not have the shape of a whole body, looks for it in the poses of
+/// the bind matrices and, if the names of a human are clear, in the frame of a clip in which it stands best.
 /// \param among  by joint: only these are considered
-FoundBody find_body(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
-                    const std::vector<bool>& among);
-
-/// The orientation of a character at rest.
-struct Posture {
-    Stance stance;
-    bool is_upright = false;       ///< the spine goes up from the legs, as a human's does
-    bool has_feet_forward = true;  ///< the toes point forward as given by left and right
-};
-
-/// Left is where the left limbs are, up is where the spine goes or the legs come from; forward follows. Nothing if that
-/// does not give axes.
-std::optional<Posture> measure_posture(const RestFrames& rest, const NamedHumanoid& found);
+FoundBody find_body(const Scene& scene, const ClipRotations& clips, const std::vector<bool>& among);
 
 }  // namespace bendy::converter

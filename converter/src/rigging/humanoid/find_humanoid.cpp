@@ -1,5 +1,6 @@
 #include "find_humanoid.h"
 
+#include "body_details.h"
 #include "mirrored_chains.h"
 
 #include <glm/geometric.hpp>
@@ -172,22 +173,27 @@ private:
         return side == BodySide::left ? left : mirrored(left);
     }
 
-    /// The joint with that name below the limb's lower bone, or else the lower bone's only child.
+    /// The joint with that name below the limb's lower bone, or else its branch that stands for the hand, or its farthest child.
     std::uint32_t find_end(BodyPart part, BodySide side, std::uint32_t lower, std::size_t loose) {
         const std::uint32_t end = pick(part, side, lower);
         if (end != kNone) return end;
         found_.loose_ends[loose] = pick(part, side);
         if (found_.loose_ends[loose] != kNone) return kNone;
-        // Otherwise the farthest child: with several, such as fingers, one of them.
+        const bool is_split = part == BodyPart::hand && children_[lower].size() > 2;
+        if (is_split) found_.has_split_hands = true;
+        const std::uint32_t branch = is_split ? find_split_hand(scene_, rest_, lower) : kNone;
+        return branch != kNone ? branch : farthest_child(lower);
+    }
+
+    [[nodiscard]] std::uint32_t farthest_child(std::uint32_t joint) const {
         std::uint32_t farthest = kNone;
         double most = 0.0;
-        for (const std::uint32_t child : children_[lower]) {
-            const double distance = glm::distance(rest_.position(lower), rest_.position(child));
+        for (const std::uint32_t child : children_[joint]) {
+            const double distance = glm::distance(rest_.position(joint), rest_.position(child));
             if (!(distance > most)) continue;
             most = distance;
             farthest = child;
         }
-        if (farthest != kNone && children_[lower].size() > 2 && part == BodyPart::hand) found_.has_split_hands = true;
         return farthest;
     }
 
@@ -212,6 +218,7 @@ private:
         found_.bones[of_side(HumanBone::left_upper_arm, side)] = upper;
         found_.bones[of_side(HumanBone::left_lower_arm, side)] = lower;
         found_.bones[of_side(HumanBone::left_hand, side)] = hand;
+        found_.has_front_legs = found_.has_front_legs || names_[upper]->is_front_leg;
         const std::uint32_t shoulder = pick(BodyPart::shoulder, side);
         if (shoulder != kNone && rest_.is_below(upper, shoulder))
             found_.bones[of_side(HumanBone::left_shoulder, side)] = shoulder;
@@ -229,6 +236,11 @@ private:
                         {BodyPart::leg, BodyPart::lower_leg}},
                        upper, lower)) {
             return;
+        }
+        // CMU's skeletons have `LHipJoint` above `LeftHip`: the thigh is the one nearest the knee.
+        for (const Candidate& candidate : list(BodyPart::upper_leg, side)) {
+            if (names_[upper]->rank != 0 && is_below(candidate.joint, upper) && is_below(lower, candidate.joint))
+                upper = candidate.joint;
         }
         const std::uint32_t foot = find_end(BodyPart::foot, side, lower, side == BodySide::left ? 2 : 3);
         found_.bones[of_side(HumanBone::left_upper_leg, side)] = upper;

@@ -33,6 +33,7 @@ struct NamedHumanoid {
     std::array<std::optional<glm::dvec3>, kLimbs> mesh_ends{};
     /// The hand's joint is one of several that branch from the forearm: no single wrist joint turns them all.
     bool has_split_hands = false;
+    bool has_front_legs = false;     ///< the arms' names are those of front legs
     bool is_by_shape = false;        ///< some or all limbs were found by the skeleton's shape
     bool contradicts_names = false;  ///< left and right are opposite to the names
 };

@@ -2,13 +2,13 @@
 
 #include "body_details.h"
 #include "clip_rotations.h"
+#include "complete_human.h"
 #include "find_body.h"
 #include "find_characters.h"
 #include "humanoid.h"
 #include "mirrored_chains.h"
 #include "scene/failure.h"
 #include "scene/rest_frames.h"
-#include "standing_pose.h"
 
 #include <bendy/converter/report.h>
 #include <bendy/format/records.h>
@@ -58,114 +58,11 @@ private:
     std::vector<RoleRecord> list_;
 };
 
-/// The joints from one below `top` down to `joint`, without `joint`.
-Joints joints_between(const Scene& scene, std::uint32_t top, std::uint32_t joint) {
-    Joints path;
-    for (std::uint32_t at = scene.joints[joint].parent; at != kNone && at != top; at = scene.joints[at].parent)
-        path.push_back(at);
-    std::reverse(path.begin(), path.end());
-    return path;
-}
-
-/// A human from the limbs and the head that were found; checks that they belong to one body.
-class HumanRoles {
-public:
-    HumanRoles(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found)
-        : scene_(scene), rest_(rest), found_(found), bones_(found.bones) {}
-
-    /// Nothing if this is not a human.
-    std::optional<Humanoid> find() {
-        if (!has_limbs() || !bones_.has(Role::head)) return std::nullopt;
-        const std::optional<Posture> posture = measure_posture(rest_, found_);
-        if (!posture || !posture->is_upright || !posture->has_feet_forward) return std::nullopt;
-        for (const Limb limb : {Limb::left_arm, Limb::right_arm, Limb::left_leg, Limb::right_leg}) add_end(limb);
-        if (!find_hips() || !find_trunk()) return std::nullopt;
-        add_details(scene_, rest_, bones_);
-        return bones_;
-    }
-
-private:
-    [[nodiscard]] bool is_named(std::uint32_t joint, BodyPart part) const {
-        const std::optional<BoneName> name = read_bone_name(scene_.joints[joint].name);
-        return name && name->part == part;
-    }
-    [[nodiscard]] bool is_wing(Role arm) const { return NameWords(scene_.joints[bones_[arm]].name).has("wing"); }
-
-    [[nodiscard]] bool has_limbs() const {
-        for (const Limb limb : {Limb::left_arm, Limb::right_arm, Limb::left_leg, Limb::right_leg}) {
-            const LimbBones of_limb = bones_of(limb);
-            if (!bones_.has(of_limb.upper) || !bones_.has(of_limb.lower)) return false;
-            if (is_wing(of_limb.upper) || is_wing(of_limb.lower)) return false;
-            if (!rest_.is_below(bones_[of_limb.lower], bones_[of_limb.upper])) return false;
-            if (!rest_.direction(bones_[of_limb.upper], bones_[of_limb.lower])) return false;
-        }
-        return true;
-    }
-
-    /// A foot that its own rig moves, at the end of the leg; of a hand that branches from the forearm, the middle.
-    void add_end(Limb limb) {
-        const LimbBones of_limb = bones_of(limb);
-        const std::uint32_t loose = found_.loose_ends[static_cast<std::size_t>(limb)];
-        const std::optional<glm::dvec3> end = end_of(found_, rest_, limb);
-        const bool is_arm = limb == Limb::left_arm || limb == Limb::right_arm;
-        if (is_arm && found_.has_split_hands)
-            bones_[of_limb.end] = find_split_hand(scene_, rest_, bones_[of_limb.lower]);
-        if (!bones_.has(of_limb.end) && loose != kNone && end && *end == rest_.position(loose))
-            bones_[of_limb.end] = loose;
-    }
-
-    /// The joint named as the hips, if it carries the legs and the head; else the lowest joint that does, or the one
-    /// named as the hips if it carries the head. False if none of them is near the legs, as a root on the ground is
-    /// not.
-    bool find_hips() {
-        const Joints body{bones_[Role::left_upper_leg], bones_[Role::right_upper_leg], bones_[Role::head]};
-        const glm::dvec3 between = 0.5 * (rest_.position(body[0]) + rest_.position(body[1]));
-        const double thigh = glm::distance(rest_.position(body[0]), rest_.position(bones_[Role::left_lower_leg]));
-        const auto is_near = [&](std::uint32_t joint) {
-            return joint != kNone && rest_.is_below(body[2], joint) &&
-                   glm::distance(rest_.position(joint), between) < 1.5 * thigh;
-        };
-        const auto carries_all = [&](std::uint32_t joint) {
-            return std::all_of(body.begin(), body.end(),
-                               [&](std::uint32_t each) { return rest_.is_below(each, joint); });
-        };
-        const std::uint32_t named = bones_[Role::hips];
-        if (is_near(named) && carries_all(named)) return true;
-        const std::uint32_t lowest = common_ancestor(scene_, rest_, body);
-        bones_[Role::hips] = is_near(lowest) ? lowest : named;
-        return is_near(bones_[Role::hips]);
-    }
-
-    /// Names the joints from the hips to the head. False if the arms do not leave from there.
-    bool find_trunk() {
-        Joints path = joints_between(scene_, bones_[Role::hips], bones_[Role::head]);
-        const std::uint32_t arms =
-            common_ancestor(scene_, rest_, {bones_[Role::left_upper_arm], bones_[Role::right_upper_arm]});
-        const auto chest = std::find(path.begin(), path.end(), arms);
-        if (arms != bones_[Role::hips] && chest == path.end()) return false;
-        auto neck = std::find(path.begin(), path.end(), bones_[Role::neck]);
-        if (neck == path.end()) neck = chest == path.end() ? path.begin() : chest + 1;
-        bones_[Role::neck] = neck == path.end() ? kNone : *neck;
-        path.erase(neck, path.end());
-        // Some rigs have a joint `Hips` above the legs' joint, which carries the spine alone.
-        std::erase_if(path, [&](std::uint32_t joint) { return is_named(joint, BodyPart::hips); });
-        bones_[Role::spine] = path.empty() ? kNone : path.front();
-        bones_[Role::chest] = path.size() < 2 ? kNone : path[path.size() / 2];
-        bones_[Role::upper_chest] = path.size() < 3 ? kNone : path.back();
-        return true;
-    }
-
-    const Scene& scene_;
-    const RestFrames& rest_;
-    const NamedHumanoid& found_;
-    Humanoid bones_;
-};
-
 constexpr std::array<std::array<Role, 2>, 2> kLegRoles{std::array{Role::left_front_leg, Role::right_front_leg},
                                                        std::array{Role::left_hind_leg, Role::right_hind_leg}};
 
 /// The joints of a leg. Where joints of an IK rig move the paw, the first of them stands for the leg's end.
-Joints joints_of_leg(const Scene& scene, const Quadruped& animal, std::size_t leg, const std::vector<bool>& moves) {
+Joints joints_of_leg(const Scene& scene, const Animal& animal, std::size_t leg, const std::vector<bool>& moves) {
     Joints joints = animal.legs[leg];
     const std::uint32_t target = animal.targets[leg];
     if (target != kNone && moves[target] && !moves[joints.back()]) {
@@ -179,9 +76,9 @@ Joints joints_of_leg(const Scene& scene, const Quadruped& animal, std::size_t le
     return joints;
 }
 
-void add_animal(const Scene& scene, const RestFrames& rest, const Quadruped& animal, RoleList& roles) {
+void add_animal(const Scene& scene, const RestFrames& rest, const Animal& animal, RoleList& roles) {
     const std::uint32_t hips = common_ancestor(
-        scene, rest, {animal.legs[Quadruped::left_hind].front(), animal.legs[Quadruped::right_hind].front()});
+        scene, rest, {animal.legs[Animal::left_hind].front(), animal.legs[Animal::right_hind].front()});
     const std::vector<bool> moves = find_moving_joints(scene);
     for (std::size_t leg = 0; leg < animal.legs.size(); ++leg)
         roles.add_chain(kLegRoles[leg / 2][leg % 2], joints_of_leg(scene, animal, leg, moves));
@@ -224,38 +121,25 @@ void add_bird(const Scene& scene, const RestFrames& rest, const NamedHumanoid& n
     roles.add_chain(Role::right_wing, right);
 }
 
-void add_human(const Scene& scene, const RestFrames& rest, const NamedHumanoid& found, RoleList& roles) {
-    const std::optional<Humanoid> human = HumanRoles(scene, rest, found).find();
-    if (!human) return add_bird(scene, rest, found, roles);
-    roles.add(*human);
-    roles.add_chain(Role::tail, find_tail(scene, {(*human)[Role::hips], (*human)[Role::spine]}));
+void add_human(const Scene& scene, const Humanoid& human, RoleList& roles) {
+    roles.add(human);
+    roles.add_chain(Role::tail, find_tail(scene, {human[Role::hips], human[Role::spine]}));
     roles.add_chain(Role::left_wing, find_wing(scene, BodySide::left));
     roles.add_chain(Role::right_wing, find_wing(scene, BodySide::right));
 }
 
-std::vector<RoleRecord> roles_among(const Scene& scene, const RestFrames& rest, const ClipRotations& clips,
-                                    const std::vector<bool>& among) {
+std::vector<RoleRecord> roles_among(const Scene& scene, const ClipRotations& clips, const std::vector<bool>& among) {
     RoleList roles(scene);
-    const FoundBody body = find_body(scene, rest, clips, among);
-    if (body.animal) {
-        add_animal(scene, rest, *body.animal, roles);
-    } else {
-        add_human(scene, rest, body.human, roles);
+    const FoundBody body = find_body(scene, clips, among);
+    const RestFrames frames = body.frames(scene);
+    if (body.whole_human) {
+        add_human(scene, *body.whole_human, roles);
+    } else if (!body.animal) {
+        add_bird(scene, frames, body.human, roles);
+    } else if (body.animal->legs.size() == kFourLegs) {
+        add_animal(scene, frames, *body.animal, roles);
     }
     return roles.take();
-}
-
-/// The roles of a body whose names are clear, but whose rest pose does not have its shape: in the pose of its bind
-/// matrices, or in the frame of a clip in which it stands best.
-std::vector<RoleRecord> roles_in_another_pose(const Scene& scene, const RestFrames& rest, const ClipRotations& clips) {
-    const std::vector<bool> all(scene.joints.size(), true);
-    const NamedHumanoid named = find_humanoid(scene, rest, find_bound_joints(scene));
-    const auto roles_in = [&](const std::optional<CandidatePose>& pose) {
-        return pose ? roles_among(scene, RestFrames(scene, pose->locals), clips, all) : std::vector<RoleRecord>();
-    };
-    std::vector<RoleRecord> roles = roles_in(find_bind_pose(scene));
-    if (roles.empty()) roles = roles_in(find_standing_frame(scene, named.bones, find_up(scene, named.bones)));
-    return roles;
 }
 
 bool has_role(const std::vector<RoleRecord>& roles, std::uint32_t joint) {
@@ -290,7 +174,7 @@ std::vector<Character> find_several(const Scene& scene, const RestFrames& rest, 
     std::vector<Character> found;
     for (const std::uint32_t root : branches) {
         const std::vector<bool> all(scene.joints.size(), true);
-        std::vector<RoleRecord> roles = roles_among(scene, rest, clips, only_below(scene, all, root));
+        std::vector<RoleRecord> roles = roles_among(scene, clips, only_below(scene, all, root));
         // Without a body that is known, a hand may look like an animal.
         const bool counts = hips != kNone ? !roles.empty() : joint_with(roles, Role::left_upper_leg) != kNone;
         if (counts) found.push_back({root, std::move(roles)});
@@ -329,8 +213,7 @@ void find_roles(Scene& scene, std::uint32_t hips, Report& report) {
     }
     const RestFrames rest(scene);
     const ClipRotations clips(scene);
-    std::vector<RoleRecord> whole = roles_among(scene, rest, clips, std::vector<bool>(scene.joints.size(), true));
-    if (whole.empty()) whole = roles_in_another_pose(scene, rest, clips);
+    std::vector<RoleRecord> whole = roles_among(scene, clips, std::vector<bool>(scene.joints.size(), true));
     std::vector<Character> all = find_several(scene, rest, clips, whole);
     const std::uint32_t wanted = hips == kNone ? joint_with(whole, Role::hips) : hips;
     const auto used = std::find_if(all.begin(), all.end(), [&](const Character& each) {

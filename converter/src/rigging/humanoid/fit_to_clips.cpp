@@ -255,7 +255,7 @@ public:
         members_.push_back(std::move(member));
     }
 
-    [[nodiscard]] std::vector<ProposedConstraint> fit(Report& report) {
+    [[nodiscard]] std::vector<ProposedConstraint> fit(const ClipRotations& clips, Report& report) {
         mesh();
         bool moves = false;
         for (const Member& member : members_) moves = moves || largest_angle(member.rotations) >= kStill;
@@ -278,6 +278,11 @@ public:
             fit_bends(constraints);
         } else {
             fit_swings(constraints);
+        }
+        std::vector<std::uint32_t> joints;
+        for (const Member& member : members_) joints.push_back(member.anatomy->joint);
+        for (ProposedConstraint& constraint : constraints) {
+            if (constraint.beyond > 0.0) constraint.farthest_clip = clips.farthest_clip(joints);
         }
         return constraints;
     }
@@ -511,7 +516,7 @@ std::vector<ProposedConstraint> fit_to_clips(const Scene& scene, const RestFrame
             is_done[j] = true;
             if (j != i) break;
         }
-        for (const ProposedConstraint& constraint : group.fit(report)) constraints.push_back(constraint);
+        for (const ProposedConstraint& constraint : group.fit(clips, report)) constraints.push_back(constraint);
     }
     return constraints;
 }

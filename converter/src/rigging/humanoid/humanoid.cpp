@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace bendy::converter {
 namespace {
@@ -274,6 +275,24 @@ std::string_view NameWords::only_word() const {
     return only;
 }
 
+namespace {
+
+/// Names the parts of a front leg as those of an arm: only hind legs are legs of a body that stands on two.
+void make_front_limb(const NameWords& words, BoneName& name) {
+    constexpr std::array kParts{std::pair(BodyPart::upper_leg, BodyPart::upper_arm),
+                                std::pair(BodyPart::lower_leg, BodyPart::lower_arm),
+                                std::pair(BodyPart::foot, BodyPart::hand)};
+    if (!words.has("front") && !words.has("fore")) return;
+    for (const auto& [of_leg, of_arm] : kParts) {
+        if (name.part != of_leg) continue;
+        name.part = of_arm;
+        name.is_front_leg = true;
+        return;
+    }
+}
+
+}  // namespace
+
 // NOLINTNEXTLINE(misc-no-recursion): once, with a side in the name
 std::optional<BoneName> read_bone_name(std::string_view name) {
     const NameWords words(name);
@@ -290,6 +309,7 @@ std::optional<BoneName> read_bone_name(std::string_view name) {
             result.rank = 1;  // some rigs have a joint above the thigh, as `LHipJoint` above `LeftUpLeg`
         }
         if (is_of_a_limb(result.part) == (result.side == BodySide::none)) return std::nullopt;
+        make_front_limb(words, result);
         return result;
     }
     const std::string_view only = words.only_word();

@@ -73,6 +73,7 @@ struct BoneName {
     BodyPart part = BodyPart::hips;
     BodySide side = BodySide::none;  ///< always left or right for the parts of a limb
     std::uint8_t rank = 0;           ///< 0 for an unambiguous name, 1 for a loose one, such as `palm` for a hand
+    bool is_front_leg = false;       ///< the name is that of a front leg, as `FrontUpLeg`; the part is the arm's
 };
 
 /// The lower-case words and numbers of a joint's name, without a namespace: `mixamorig:LeftForeArm_010` has left, fore,

@@ -90,9 +90,9 @@ std::optional<Chain> make_head(const Humanoid& humanoid, const RestFrames& rest,
 
 }  // namespace
 
-Chain make_chain(const char* name, std::uint32_t start, std::uint32_t effector, Solver solver, std::uint8_t flags) {
+Chain make_chain(std::string name, std::uint32_t start, std::uint32_t effector, Solver solver, std::uint8_t flags) {
     Chain chain;
-    chain.name = name;
+    chain.name = std::move(name);
     chain.record.start = start;
     chain.record.effector = effector;
     chain.record.solver = static_cast<std::uint8_t>(solver);

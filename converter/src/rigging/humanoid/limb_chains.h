@@ -29,7 +29,7 @@ std::vector<Chain> make_limb_chains(const Scene& scene, const RestFrames& rest, 
                                     const Stance& stance, std::uint8_t flags, const std::string& where, Report& report);
 
 /// A chain without a pole and weights.
-Chain make_chain(const char* name, std::uint32_t start, std::uint32_t effector, Solver solver, std::uint8_t flags);
+Chain make_chain(std::string name, std::uint32_t start, std::uint32_t effector, Solver solver, std::uint8_t flags);
 
 /// Joints from `start` down to `effector`, both included; empty if `effector` is neither `start` nor below it.
 std::vector<std::uint32_t> path_of(const Scene& scene, std::uint32_t start, std::uint32_t effector);

@@ -38,15 +38,32 @@ private:
         }
     }
 
-    void find_pairs_below(std::uint32_t joint) {
+    /// The children that a limb may begin with.
+    [[nodiscard]] std::vector<std::uint32_t> roots_below(std::uint32_t joint) const {
         std::vector<std::uint32_t> roots;
         for (const std::uint32_t child : children_[joint]) {
             if (reach_[child] > 0.0 && roots.size() < kMostChildren) roots.push_back(child);
         }
+        return roots;
+    }
+
+    void find_pairs_below(std::uint32_t joint) {
+        const std::vector<std::uint32_t> roots = roots_below(joint);
         for (std::size_t a = 0; a < roots.size(); ++a) {
-            for (std::size_t b = a + 1; b < roots.size() && chains_.size() < kMostChains; ++b)
-                follow(roots[a], roots[b]);
+            for (std::size_t b = a + 1; b < roots.size(); ++b) {
+                // All legs of a side may hang on a joint in the middle.
+                if (distance(roots[a], roots[b]) < 1e-3 * reach_[roots[a]]) {
+                    for (const std::uint32_t left : roots_below(roots[a])) {
+                        for (const std::uint32_t right : roots_below(roots[b])) add_pair(left, right);
+                    }
+                }
+                add_pair(roots[a], roots[b]);
+            }
         }
+    }
+
+    void add_pair(std::uint32_t a, std::uint32_t b) {
+        if (chains_.size() < kMostChains) follow(a, b);
     }
 
     /// The mirror plane between two subtrees.

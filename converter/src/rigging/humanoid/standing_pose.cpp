@@ -116,36 +116,91 @@ std::optional<Standing> judge_stand(const RestFrames& pose, const Humanoid& bone
 
 // --- candidates
 
-std::optional<CandidatePose> find_bind_pose(const Scene& scene) {
-    constexpr double kSame = 0.99996;  // cosine of half a degree: of half the angle
-    std::vector<std::optional<Rotation>> bound(scene.joints.size());
+namespace {
+
+/// A joint's bind matrix as a rotation and a matrix.
+struct BoundJoint {
+    Rotation turn{1.0, 0.0, 0.0, 0.0};
+    glm::dmat4 matrix{1.0};
+};
+
+/// By joint; nothing for those that no skin binds, or whose matrix flattens or mirrors.
+std::vector<std::optional<BoundJoint>> find_bound(const Scene& scene) {
+    std::vector<std::optional<BoundJoint>> bound(scene.joints.size());
     for (const Mesh& mesh : scene.meshes) {
         for (std::size_t entry = 0; entry < mesh.palette.joints.size(); ++entry) {
-            const glm::dmat3 to_joint(glm::dmat4(mesh.palette.inverse_bind[entry]));
-            if (!(std::abs(glm::determinant(to_joint)) > 1e-12)) continue;
-            const glm::dmat3 axes = glm::inverse(to_joint);
-            const auto x = unit(axes[0]);
-            const auto y = x ? unit_across(axes[1], *x) : std::nullopt;
-            if (!y || glm::determinant(axes) < 0.0) continue;
             auto& place = bound[mesh.palette.joints[entry]];
-            if (!place) place = rotation_of_axes(glm::dmat3(*x, *y, glm::cross(*x, *y)));
+            const glm::dmat4 to_joint(mesh.palette.inverse_bind[entry]);
+            if (place || !(std::abs(glm::determinant(glm::dmat3(to_joint))) > 1e-12)) continue;
+            const glm::dmat4 matrix = glm::inverse(to_joint);
+            const auto x = unit(matrix[0]);
+            const auto y = x ? unit_across(matrix[1], *x) : std::nullopt;
+            if (!y || glm::determinant(glm::dmat3(matrix)) < 0.0 || !std::isfinite(glm::dot(matrix[3], matrix[3])))
+                continue;
+            place = BoundJoint{rotation_of_axes(glm::dmat3(*x, *y, glm::cross(*x, *y))), matrix};
         }
     }
+    return bound;
+}
+
+glm::dmat4 matrix_of(const Transform& local) {
+    glm::dmat3 axes = glm::mat3_cast(to_rotation({local.rotation.x, local.rotation.y, local.rotation.z, local.rotation.w}));
+    for (int axis = 0; axis < 3; ++axis) axes[axis] *= double{local.scale[axis]};
+    glm::dmat4 matrix(axes);
+    matrix[3] = glm::dvec4(glm::dvec3(local.translation), 1.0);
+    return matrix;
+}
+
+}  // namespace
+
+CandidatePose turned(const Scene& scene, const Rotation& turn, CandidatePose pose) {
+    for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+        if (scene.joints[joint].parent != kNone) continue;
+        Transform& local = pose.locals[joint];
+        const glm::vec4& q = local.rotation;
+        const Rotation own = glm::normalize(turn * to_rotation({q.x, q.y, q.z, q.w}));
+        local.rotation = {own.x, own.y, own.z, own.w};
+        local.translation = glm::vec3(turn * glm::dvec3(local.translation));
+    }
+    return pose;
+}
+
+std::vector<CandidatePose> find_bind_poses(const Scene& scene) {
+    constexpr double kSame = 0.99996;  // cosine of half a degree: of half the angle
+    const std::vector<std::optional<BoundJoint>> bound = find_bound(scene);
+    const auto first = std::find_if(bound.begin(), bound.end(), [](const auto& one) { return one.has_value(); });
+    if (first == bound.end()) return {};
+    const auto root = static_cast<std::uint32_t>(first - bound.begin());
     CandidatePose pose{StandingEvidence::bind_pose, rest_of(scene)};
-    std::vector<Rotation> turns;  // in model space
+    const RestFrames rest(scene);
+    // From model space at rest to that of the bind matrices; where the root is, both agree.
+    const Rotation turn = glm::normalize(first->value().turn * glm::conjugate(rest.turn(root)));
+    std::vector<Rotation> turns;     // in the space of the bind matrices
+    std::vector<glm::dmat4> places;  // as turns
+    glm::dmat4 above_root(first->value().matrix * glm::inverse(matrix_of(pose.locals[root])));
     bool differs = false;
+    for (std::uint32_t joint = root; scene.joints[joint].parent != kNone;) {
+        joint = scene.joints[joint].parent;
+        above_root = above_root * glm::inverse(matrix_of(pose.locals[joint]));
+    }
     for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
         const std::uint32_t parent = scene.joints[joint].parent;
-        const Rotation above = parent == kNone ? Rotation(1.0, 0.0, 0.0, 0.0) : turns[parent];
-        glm::vec4& local = pose.locals[joint].rotation;
-        const Rotation rest = to_rotation({local.x, local.y, local.z, local.w});
-        turns.push_back(bound[joint] ? *bound[joint] : glm::normalize(above * rest));
+        const Rotation above = parent == kNone ? turn : turns[parent];
+        const glm::dmat4& space = parent == kNone ? above_root : places[parent];
+        Transform& local = pose.locals[joint];
+        const Rotation own = to_rotation({local.rotation.x, local.rotation.y, local.rotation.z, local.rotation.w});
+        turns.push_back(bound[joint] ? bound[joint]->turn : glm::normalize(above * own));
+        places.push_back(bound[joint] ? bound[joint]->matrix : space * matrix_of(local));
         if (!bound[joint]) continue;
-        const Rotation own = glm::normalize(glm::conjugate(above) * turns.back());
-        differs = differs || std::abs(glm::dot(own, rest)) < kSame;
-        local = {own.x, own.y, own.z, own.w};
+        const Rotation found = glm::normalize(glm::conjugate(above) * turns.back());
+        differs = differs || std::abs(glm::dot(found, own)) < kSame;
+        local.rotation = {found.x, found.y, found.z, found.w};
+        const glm::vec3 place(glm::inverse(space) * places.back()[3]);
+        if (std::isfinite(glm::dot(place, place))) local.translation = place;
     }
-    return differs ? std::optional(std::move(pose)) : std::nullopt;
+    if (!differs && std::abs(turn.w) > kSame) return {};
+    CandidatePose as_bound = turned(scene, turn, pose);
+    return {std::move(as_bound), std::move(pose)};
 }
 
 namespace {
@@ -254,15 +309,7 @@ std::optional<CandidatePose> turn_upright(const Scene& scene, const Humanoid& bo
     const auto left = x ? x : unit_across({0.0, 0.0, 1.0}, up);
     if (!axes || !left) return std::nullopt;
     const Rotation turn = rotation_of_axes(glm::dmat3(*left, up, glm::cross(*left, up))) * glm::conjugate(*axes);
-    for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
-        if (scene.joints[joint].parent != kNone) continue;
-        Transform& local = pose.locals[joint];
-        const glm::vec4& q = local.rotation;
-        const Rotation turned = glm::normalize(turn * to_rotation({q.x, q.y, q.z, q.w}));
-        local.rotation = {turned.x, turned.y, turned.z, turned.w};
-        local.translation = glm::vec3(turn * glm::dvec3(local.translation));
-    }
-    return pose;
+    return turned(scene, turn, std::move(pose));
 }
 
 // --- the scene's
@@ -331,13 +378,13 @@ std::optional<double> ground_of_clips(const Scene& scene, std::uint32_t hips, co
 
 std::optional<StandingPose> make_standing_pose(const Scene& scene, const Humanoid& bones, const glm::dvec3& up,
                                                const CandidatePose& from) {
-    const RestFrames turned(scene, from.locals);
-    const RestFrames pose(scene, with_turns(scene, turned));
+    const RestFrames stands(scene, from.locals);
+    const RestFrames pose(scene, with_turns(scene, stands));
     const auto axes = axes_of(pose, bones, up);
     if (!axes) return std::nullopt;
     StandingPose standing;
     for (const RoleRecord& role : scene.roles)
-        standing.rotations.push_back(standing_rotation(role.joint, to_record(turned.turn(role.joint))));
+        standing.rotations.push_back(standing_rotation(role.joint, to_record(stands.turn(role.joint))));
     const auto [lowest, highest] = heights_of(scene, pose, up);
     constexpr double kNear = 0.05;  // of the height: feet dip into the ground
     const double of_clips = ground_of_clips(scene, bones[Bone::hips], up).value_or(lowest);
@@ -357,9 +404,10 @@ bool does_stand(const RestFrames& pose, const Humanoid& bones, const glm::dvec3&
 
 /// The pose to trust, if the rest pose does not stand.
 std::optional<CandidatePose> find_stand(const Scene& scene, const Humanoid& bones, const glm::dvec3& up) {
-    for (std::optional<CandidatePose> pose :
-         {find_bind_pose(scene), std::optional(CandidatePose{StandingEvidence::rest_pose, rest_of(scene)})}) {
-        if (pose) pose = turn_upright(scene, bones, up, *std::move(pose));
+    std::vector<CandidatePose> poses = find_bind_poses(scene);
+    poses.push_back({StandingEvidence::rest_pose, rest_of(scene)});
+    for (CandidatePose& candidate : poses) {
+        const auto pose = turn_upright(scene, bones, up, std::move(candidate));
         if (pose && does_stand(RestFrames(scene, pose->locals), bones, up)) return pose;
     }
     return find_standing_frame(scene, bones, up);

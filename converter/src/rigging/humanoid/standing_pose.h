@@ -41,8 +41,12 @@ struct CandidatePose {
     std::vector<Transform> locals;
 };
 
-/// The pose of the skins' bind matrices; joints that no skin binds rest. Nothing if that is the rest pose.
-std::optional<CandidatePose> find_bind_pose(const Scene& scene);
+/// The poses of the skins' bind matrices, where that is not the rest pose: with the root turned as it is bound, and as
+/// it rests. Joints that no skin binds rest.
+std::vector<CandidatePose> find_bind_poses(const Scene& scene);
+
+/// The pose turned as a whole.
+CandidatePose turned(const Scene& scene, const Rotation& turn, CandidatePose pose);
 
 /// The axis that points up in the scene's motions: the one near which the body's own up stays in its clips; Y if there
 /// is none.

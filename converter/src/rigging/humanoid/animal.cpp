@@ -1,4 +1,4 @@
-#include "quadruped.h"
+#include "animal.h"
 
 #include "humanoid.h"
 #include "mirrored_chains.h"
@@ -7,8 +7,10 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 namespace bendy::converter {
@@ -18,6 +20,7 @@ namespace {
 struct LegPair {
     const MirroredChains* chains = nullptr;
     std::size_t root = 0, foot = 0;
+    std::size_t first = 0;                        ///< as root, of legs that spread sideways
     double length = 0.0;                          ///< metres along the bones
     glm::dvec3 root_place{0.0}, foot_place{0.0};  ///< halfway between both sides
     glm::dvec3 up{0.0, 1.0, 0.0};                 ///< unit, from the feet to the roots
@@ -43,9 +46,9 @@ std::vector<bool> with_ends(const Scene& scene, const std::vector<bool>& chosen)
     return all;
 }
 
-class QuadrupedFinder {
+class AnimalFinder {
 public:
-    QuadrupedFinder(const Scene& scene, const RestFrames& rest, const std::vector<bool>& chosen)
+    AnimalFinder(const Scene& scene, const RestFrames& rest, const std::vector<bool>& chosen)
         : scene_(scene),
           rest_(rest),
           children_(list_children(scene, chosen)),
@@ -57,17 +60,21 @@ public:
         for (const MirroredChains& chains : chains_) add_legs(chains);
     }
 
-    [[nodiscard]] std::optional<Quadruped> find() {
-        const std::optional<std::pair<LegPair, LegPair>> standing = find_standing();
-        if (!standing) return std::nullopt;
-        const auto& [a, b] = *standing;
-        mark_trunk(a, b);
+    [[nodiscard]] std::optional<Animal> find() {
+        std::vector<LegPair> all = find_all_legs();
+        if (all.empty()) return std::nullopt;
+        const auto [a, b] = std::pair(all[0], all[1]);
+        mark_trunk(all);
         const std::vector<std::uint32_t> of_a = outgrowth(a, b);
         const std::vector<std::uint32_t> of_b = outgrowth(b, a);
         const auto from_b_to_a = unit_across(a.root_place - b.root_place, unit(a.up + b.up).value_or(a.up));
         if (!from_b_to_a) return std::nullopt;
         const bool is_a_front = front_vote(a, of_a, b, of_b, *from_b_to_a) >= 0.0;
-        return is_a_front ? describe(a, of_a, b, of_b, *from_b_to_a) : describe(b, of_b, a, of_a, -*from_b_to_a);
+        const glm::dvec3 forward = is_a_front ? *from_b_to_a : -*from_b_to_a;
+        std::stable_sort(all.begin(), all.end(), [&](const LegPair& first, const LegPair& second) {
+            return glm::dot(first.root_place - second.root_place, forward) > 0.0;
+        });
+        return is_a_front ? describe(all, of_a, of_b, forward) : describe(all, of_b, of_a, forward);
     }
 
 private:
@@ -107,6 +114,8 @@ private:
         };
         legs.foot = last;
         while (legs.foot > 2 && bone(legs.foot - 1) < shortest) --legs.foot;
+        while (legs.first + 2 < legs.foot && bone(legs.first) < shortest) ++legs.first;
+        legs.root = legs.first;
         while (legs.root + 2 < legs.foot && (bone(legs.root) < shortest || runs_across(legs.root))) ++legs.root;
         legs.root_place = halfway(chains, legs.root);
         legs.foot_place = halfway(chains, legs.foot);
@@ -114,65 +123,152 @@ private:
             glm::distance(rest_.position(chains.joints[0][legs.root]), rest_.position(chains.joints[1][legs.root]));
         const auto up = unit(legs.root_place - legs.foot_place);
         legs.anchor = common_ancestor(scene_, rest_, {chains.joints[0].front(), chains.joints[1].front()});
-        if (!up || up->y < 0.7 || legs.anchor == kNone) return;
+        if (!up || legs.anchor == kNone) return;
         // Skirts, braids and coats hang, but do not stand.
         if (legs.foot_place.y - lowest_ > kGround * legs.length) return;
-        legs.up = *up;
-        legs_.push_back(legs);
+        if (up->y > 0.7) {
+            legs.up = *up;
+            legs_.push_back(legs);
+        } else if (highest_of(legs) - legs.foot_place.y > 0.1 * legs.length && !is_wing_or_ear(legs)) {
+            splayed_.push_back(legs);
+        }
     }
 
-    /// The two pairs that stand: on the same ground, as far apart as a trunk is long, without a third pair.
-    [[nodiscard]] std::optional<std::pair<LegPair, LegPair>> find_standing() const {
-        std::optional<std::pair<LegPair, LegPair>> standing;
+    [[nodiscard]] bool is_wing_or_ear(const LegPair& legs) const {
+        return std::any_of(legs.chains->joints[0].begin(), legs.chains->joints[0].end(), [&](std::uint32_t joint) {
+            const NameWords name(scene_.joints[joint].name);
+            return name.has("wing") || name.has("ear");
+        });
+    }
+
+    [[nodiscard]] double highest_of(const LegPair& legs) const {
+        double highest = -std::numeric_limits<double>::infinity();
+        for (std::size_t joint = legs.root; joint <= legs.foot; ++joint)
+            highest = std::max(highest, halfway(*legs.chains, joint).y);
+        return highest;
+    }
+
+    /// All pairs that stand, the two that are farthest apart first; nothing for fewer than two. Legs that point forward
+    /// or back, as a spider's, are legs if there are six.
+    [[nodiscard]] std::vector<LegPair> find_all_legs() const {
+        std::vector<LegPair> best;
         for (std::size_t i = 0; i < legs_.size(); ++i) {
             for (std::size_t j = i + 1; j < legs_.size(); ++j) {
                 if (!stand_together(legs_[i], legs_[j])) continue;
-                const std::pair<LegPair, LegPair> found(legs_[i], legs_[j]);
-                if (standing && roots_of(*standing) != roots_of(found)) return std::nullopt;
-                // Four similar legs mirror in two planes; a trunk is longer than wide.
-                if (!standing || trunk_of(found) > trunk_of(*standing)) standing = found;
+                std::vector<LegPair> all = with_others({legs_[i], legs_[j]}, legs_);
+                if (is_better(all, best)) best = std::move(all);
             }
         }
-        return standing;
+        std::vector<LegPair> candidates = legs_;
+        candidates.insert(candidates.end(), splayed_.begin(), splayed_.end());
+        for (const LegPair& first : candidates) {
+            std::vector<LegPair> all = with_others({first}, candidates);
+            if (all.size() > 2 && is_better(all, best)) best = farthest_first(std::move(all));
+        }
+        return spread(std::move(best));
     }
 
-    [[nodiscard]] static std::array<std::uint32_t, 4> roots_of(const std::pair<LegPair, LegPair>& legs) {
-        std::array<std::uint32_t, 4> roots{legs.first.chains->joints[0].front(), legs.first.chains->joints[1].front(),
-                                           legs.second.chains->joints[0].front(),
-                                           legs.second.chains->joints[1].front()};
-        std::sort(roots.begin(), roots.end());
-        return roots;
+    /// Similar legs mirror in two planes. A trunk is longer than wide; of six legs, names and the front say more.
+    [[nodiscard]] bool is_better(const std::vector<LegPair>& all, const std::vector<LegPair>& than) const {
+        if (all.size() != than.size()) return all.size() > than.size();
+        if (all.size() == 2) return trunk_of(all) > trunk_of(than);
+        const std::size_t named = count_sides(all);
+        const std::size_t others = count_sides(than);
+        if (named != others) return named > others;
+        return std::abs(all[0].chains->across.x) > std::abs(than[0].chains->across.x);
     }
-    [[nodiscard]] static double trunk_of(const std::pair<LegPair, LegPair>& legs) {
-        return glm::distance(legs.first.root_place, legs.second.root_place);
+
+    /// How many pairs have a left and a right leg by name.
+    [[nodiscard]] std::size_t count_sides(const std::vector<LegPair>& all) const {
+        return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](const LegPair& legs) {
+            const BodySide a = NameWords(scene_.joints[legs.chains->joints[0].front()].name).side();
+            const BodySide b = NameWords(scene_.joints[legs.chains->joints[1].front()].name).side();
+            return a != b && a != BodySide::none && b != BodySide::none;
+        }));
+    }
+
+    [[nodiscard]] static double trunk_of(const std::vector<LegPair>& all) {
+        return glm::distance(all[0].root_place, all[1].root_place);
+    }
+
+    [[nodiscard]] static std::vector<LegPair> farthest_first(std::vector<LegPair> all) {
+        std::pair<std::size_t, std::size_t> ends(0, 1);
+        double most = -1.0;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            for (std::size_t j = i + 1; j < all.size(); ++j) {
+                const double apart = glm::distance(all[i].foot_place, all[j].foot_place);
+                if (apart > most) ends = {i, j};
+                most = std::max(most, apart);
+            }
+        }
+        std::swap(all[0], all[ends.first]);
+        std::swap(all[1], all[ends.second]);
+        return all;
+    }
+
+    /// Six legs and more begin where they leave the body, even if they first run sideways.
+    [[nodiscard]] std::vector<LegPair> spread(std::vector<LegPair> all) const {
+        for (LegPair& legs : all) {
+            if (all.size() == 2) break;
+            legs.root = legs.first;
+            legs.root_place = halfway(*legs.chains, legs.root);
+        }
+        return all;
+    }
+
+    /// Adds those of the candidates that are like all others.
+    [[nodiscard]] std::vector<LegPair> with_others(std::vector<LegPair> all,
+                                                   const std::vector<LegPair>& candidates) const {
+        for (const LegPair& legs : candidates) {
+            const bool is_one_of_them = std::all_of(all.begin(), all.end(), [&](const LegPair& other) {
+                return have_joints_of_their_own(legs, other) && are_alike(legs, other);
+            });
+            if (is_one_of_them) all.push_back(legs);
+        }
+        return all;
+    }
+
+    /// Whether none of the legs hangs on one of the other pair.
+    [[nodiscard]] bool have_joints_of_their_own(const LegPair& a, const LegPair& b) const {
+        for (const auto& first : a.chains->joints) {
+            for (const auto& second : b.chains->joints) {
+                if (first.front() == second.front() || rest_.is_below(first.front(), second.front()) ||
+                    rest_.is_below(second.front(), first.front()))
+                    return false;
+            }
+        }
+        return true;
+    }
+
+    /// Whether both stand on the same ground, across the same trunk, with legs of similar length.
+    [[nodiscard]] static bool are_alike(const LegPair& a, const LegPair& b) {
+        const double length = 0.5 * (a.length + b.length);
+        const double ratio = a.length / b.length;
+        const bool is_one_ground = std::abs(a.foot_place.y - b.foot_place.y) < kGround * length;
+        return is_one_ground && std::abs(glm::dot(a.chains->across, b.chains->across)) > 0.9 && ratio > 0.4 &&
+               ratio < 2.5;
     }
 
     [[nodiscard]] bool stand_together(const LegPair& a, const LegPair& b) const {
-        const std::uint32_t first = a.chains->joints[0].front();
-        const std::uint32_t second = b.chains->joints[0].front();
-        if (first == second || rest_.is_below(first, second) || rest_.is_below(second, first)) return false;
+        if (!have_joints_of_their_own(a, b) || !are_alike(a, b)) return false;
         const auto up = unit(a.up + b.up);
         const auto trunk = unit(a.root_place - b.root_place);
         if (!up || !trunk) return false;
         const double length = 0.5 * (a.length + b.length);
-        const double ratio = a.length / b.length;
         const bool is_level = std::abs(glm::dot(*trunk, *up)) < 0.5;
         // Some legs begin with a shoulder blade and a pelvis, which meet in the middle of the back.
         const bool has_trunk = std::max(glm::distance(a.root_place, b.root_place),
                                         glm::distance(a.foot_place, b.foot_place)) > 0.3 * length;
-        const bool is_one_ground = std::abs(glm::dot(a.foot_place - b.foot_place, *up)) < kGround * length;
-        const bool agrees = std::abs(glm::dot(a.chains->across, b.chains->across)) > 0.9 &&
-                            std::abs(glm::dot(a.chains->across, *trunk)) < 0.3;
-        return is_level && has_trunk && is_one_ground && agrees && ratio > 0.4 && ratio < 2.5;
+        return is_level && has_trunk && std::abs(glm::dot(a.chains->across, *trunk)) < 0.3;
     }
 
     // --- trunk
 
-    /// Marks the joints between the two pairs, and those that carry a leg.
-    void mark_trunk(const LegPair& a, const LegPair& b) {
+    /// Marks the joints between the pairs, and those that carry a leg.
+    void mark_trunk(const std::vector<LegPair>& all) {
         is_trunk_.assign(children_.size(), false);
-        for (const LegPair* legs : {&a, &b}) {
-            for (const auto& side : legs->chains->joints) {
+        for (const LegPair& legs : all) {
+            for (const auto& side : legs.chains->joints) {
                 for (std::uint32_t joint = side.front(); joint != kNone; joint = scene_.joints[joint].parent)
                     is_trunk_[joint] = true;
             }
@@ -228,9 +324,21 @@ private:
         return name && name->part == BodyPart::head;
     }
 
+    /// 1 if the legs' names say that they are front legs, -1 for hind legs, 0 if they do not tell.
+    [[nodiscard]] int front_by_name(const LegPair& legs) const {
+        int front = 0;
+        for (const std::uint32_t joint : legs.chains->joints[0]) {
+            const NameWords name(scene_.joints[joint].name);
+            if (name.has("front") || name.has("fore")) ++front;
+            if (name.has("back") || name.has("hind") || name.has("rear")) --front;
+        }
+        return std::clamp(front, -1, 1);
+    }
+
     /// Above 0 if `a` is in front.
     [[nodiscard]] double front_vote(const LegPair& a, const std::vector<std::uint32_t>& of_a, const LegPair& b,
                                     const std::vector<std::uint32_t>& of_b, const glm::dvec3& from_b_to_a) const {
+        if (const int named = front_by_name(a) - front_by_name(b); named != 0) return named;
         const auto ends_with_head = [&](const std::vector<std::uint32_t>& path) {
             return !path.empty() && is_head(path.back());
         };
@@ -248,28 +356,28 @@ private:
         return vote + 2.0 * (height(of_a, a) - height(of_b, b)) + 0.01 * from_b_to_a.z;
     }
 
-    [[nodiscard]] std::optional<Quadruped> describe(const LegPair& front, std::vector<std::uint32_t> neck,
-                                                    const LegPair& hind, std::vector<std::uint32_t> tail,
-                                                    const glm::dvec3& forward) const {
-        const auto up = unit_across(front.up + hind.up, forward);
+    /// \param all  from the front
+    [[nodiscard]] std::optional<Animal> describe(const std::vector<LegPair>& all, std::vector<std::uint32_t> neck,
+                                                 std::vector<std::uint32_t> tail, const glm::dvec3& forward) const {
+        const auto up = unit_across(all.front().up + all.back().up, forward);
         if (!up) return std::nullopt;
-        Quadruped found;
+        Animal found;
         found.stance = {glm::cross(*up, forward), *up, forward};
-        for (const auto& [legs, left] :
-             {std::pair(&front, Quadruped::left_front), std::pair(&hind, Quadruped::left_hind)}) {
-            const bool is_first_left = glm::dot(legs->chains->across, found.stance.left) > 0.0;
+        for (const LegPair& legs : all) {
+            const bool is_first_left = glm::dot(legs.chains->across, found.stance.left) > 0.0;
             for (const std::size_t side : {0u, 1u}) {
-                const std::vector<std::uint32_t>& joints = legs->chains->joints[is_first_left ? side : 1 - side];
-                const auto below = joints.begin() + static_cast<std::ptrdiff_t>(legs->foot) + 1;
-                found.legs[left + side].assign(joints.begin() + static_cast<std::ptrdiff_t>(legs->root), below);
-                found.paws[left + side].assign(below, joints.end());
+                const std::vector<std::uint32_t>& joints = legs.chains->joints[is_first_left ? side : 1 - side];
+                const auto below = joints.begin() + static_cast<std::ptrdiff_t>(legs.foot) + 1;
+                found.legs.emplace_back(joints.begin() + static_cast<std::ptrdiff_t>(legs.root), below);
+                found.paws.emplace_back(below, joints.end());
+                found.targets.push_back(find_target(found.legs.back()));
             }
         }
-        found.spine = find_spine(front.anchor, hind.anchor);
+        found.spine = find_spine(all.front().anchor, all.back().anchor);
+        if (neck.empty() && !tail.empty() && is_head(tail.back())) std::swap(neck, tail);
         cut_at_head(neck);
         found.neck = std::move(neck);
         found.tail = std::move(tail);
-        for (std::size_t leg = 0; leg < found.legs.size(); ++leg) found.targets[leg] = find_target(found.legs[leg]);
         return found;
     }
 
@@ -317,6 +425,7 @@ private:
     double lowest_ = std::numeric_limits<double>::infinity();  ///< height of the lowest joint, metres
     std::vector<double> reach_;  ///< metres from the joint to its farthest descendant, along the bones
     std::vector<LegPair> legs_;
+    std::vector<LegPair> splayed_;  ///< whose feet are far in front of their roots, or behind
     std::vector<bool> is_trunk_;
 };
 
@@ -334,19 +443,23 @@ constexpr double kClearlyBent = 20.0;  // degrees
 
 }  // namespace
 
-std::optional<Quadruped> find_quadruped(const Scene& scene, const RestFrames& rest, const std::vector<bool>& chosen) {
-    return QuadrupedFinder(scene, rest, chosen).find();
+std::optional<Animal> find_animal(const Scene& scene, const RestFrames& rest, const std::vector<bool>& chosen) {
+    return AnimalFinder(scene, rest, chosen).find();
 }
 
-std::vector<Chain> make_quadruped_chains(const Scene& scene, const RestFrames& rest, const Quadruped& found,
+std::vector<Chain> make_animal_chains(const Scene& scene, const RestFrames& rest, const Animal& found,
                                          std::uint8_t flags) {
-    constexpr std::array<const char*, 4> kLegs{"LeftFrontLeg", "RightFrontLeg", "LeftHindLeg", "RightHindLeg"};
+    constexpr std::array<const char*, kFourLegs> kLegs{"LeftFrontLeg", "RightFrontLeg", "LeftHindLeg", "RightHindLeg"};
+    const auto name_of = [&](std::size_t leg) {
+        if (found.legs.size() == kFourLegs) return std::string(kLegs[leg]);
+        return (leg % 2 == 0 ? "LeftLeg" : "RightLeg") + std::to_string(leg / 2 + 1);
+    };
     std::vector<Chain> chains;
-    for (std::size_t leg = 0; leg < kLegs.size(); ++leg) {
+    for (std::size_t leg = 0; leg < found.legs.size(); ++leg) {
         const std::vector<std::uint32_t>& joints = found.legs[leg];
         const bool is_two_bone = joints.size() == 3;
         Chain chain =
-            make_chain(kLegs[leg], joints.front(), joints.back(), is_two_bone ? Solver::two_bone : Solver::any, flags);
+            make_chain(name_of(leg), joints.front(), joints.back(), is_two_bone ? Solver::two_bone : Solver::any, flags);
         if (is_two_bone) {
             const auto bend = bend_of(rest, joints[0], joints[1], rest.position(joints[2]));
             const auto pole = bend ? rest.to_space_of(scene.joints[joints[0]].parent, *bend) : std::nullopt;
@@ -370,7 +483,7 @@ std::vector<Chain> make_quadruped_chains(const Scene& scene, const RestFrames& r
     return chains;
 }
 
-std::vector<JointAnatomy> find_anatomy(const RestFrames& rest, const Quadruped& found) {
+std::vector<JointAnatomy> find_anatomy(const RestFrames& rest, const Animal& found) {
     const Stance& stance = found.stance;
     AnatomyBuilder joints(rest, stance);
     const auto head = found.neck.empty() ? kNone : found.neck.front();
@@ -382,7 +495,7 @@ std::vector<JointAnatomy> find_anatomy(const RestFrames& rest, const Quadruped& 
         joints.set_side(right);
         for (const bool hind : {false, true}) {
             const std::vector<std::uint32_t>& leg =
-                found.legs[(hind ? Quadruped::left_hind : Quadruped::left_front) + (right ? 1 : 0)];
+                found.legs[(hind ? Animal::left_hind : Animal::left_front) + (right ? 1 : 0)];
             joints.add_swing(leg[0], hind ? BodyJoint::hind_leg : BodyJoint::front_leg, joints.along(leg[0], leg[1]),
                              stance.forward, kLeg);
             for (std::size_t i = 1; i + 1 < leg.size(); ++i) {

@@ -1,4 +1,5 @@
 #include "rigging/humanoid/auto_rig.h"
+#include "rigging/humanoid/find_roles.h"
 
 #include "humanoid_gltf.h"
 
@@ -7,11 +8,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace bendy::converter::quadruped_test {
+namespace bendy::converter::animal_test {
 namespace {
 
 using namespace test;
@@ -82,7 +85,7 @@ void expect_chains(const Rigged& rigged) {
     EXPECT_EQ(rigged.scene.chains.size(), 7u);
 }
 
-TEST(Quadruped, GetsFourLegsSpineNeckAndTailWhereverItLooks) {
+TEST(Animal, GetsFourLegsSpineNeckAndTailWhereverItLooks) {
     for (const double turn : {0.0, 1.0, 2.5, 4.0}) {
         HumanoidGltf dog = make_dog();
         const glm::dquat about_y = glm::angleAxis(turn, glm::dvec3(0, 1, 0));
@@ -91,7 +94,7 @@ TEST(Quadruped, GetsFourLegsSpineNeckAndTailWhereverItLooks) {
     }
 }
 
-TEST(Quadruped, ANameSaysWhichEndIsTheHead) {
+TEST(Animal, ANameSaysWhichEndIsTheHead) {
     HumanoidGltf dog = make_dog();  // its tail stands up, its head hangs, and its toes are where its feet are
     dog["tail3"].position = {0, 1.1, -0.5};
     dog["neck"].position.y = 0.5;
@@ -106,7 +109,7 @@ TEST(Quadruped, ANameSaysWhichEndIsTheHead) {
     EXPECT_EQ(rigged.ends("LeftFrontLeg"), Ends("leftFront1", "leftFront4"));
 }
 
-TEST(Quadruped, LegsMayEndInLeavesThatMoveNothingAndBeMovedByJointsElsewhere) {
+TEST(Animal, LegsMayEndInLeavesThatMoveNothingAndBeMovedByJointsElsewhere) {
     HumanoidGltf dog = make_dog();
     std::erase_if(dog.bones, [](const auto& bone) { return bone.name.find("Front4") != std::string::npos; });
     dog.add("foot", "", dog["leftFront3"].position);  // of an IK rig
@@ -128,7 +131,7 @@ TEST(Quadruped, LegsMayEndInLeavesThatMoveNothingAndBeMovedByJointsElsewhere) {
     EXPECT_EQ(rigged.ends("Neck"), Ends("neck", "skull"));
 }
 
-TEST(Quadruped, HumanNamesOnFourLegsMakeNoHuman) {
+TEST(Animal, HumanNamesOnFourLegsMakeNoHuman) {
     const Rigged rigged = rig(make_quadruped());
     EXPECT_EQ(rigged.ends("LeftHindLeg"), Ends("leftUpperLeg", "leftToes"));
     EXPECT_EQ(rigged.ends("LeftFrontLeg").second, "leftHand");
@@ -136,7 +139,7 @@ TEST(Quadruped, HumanNamesOnFourLegsMakeNoHuman) {
     EXPECT_EQ(find_chain(rigged.scene, "LeftLeg"), nullptr);
 }
 
-TEST(Quadruped, LegsOfTwoBonesAreSolvedAsSuchAndBendAsTheyRest) {
+TEST(Animal, LegsOfTwoBonesAreSolvedAsSuchAndBendAsTheyRest) {
     const Rigged rigged = rig(make_dog());
     const Chain& front = *find_chain(rigged.scene, "LeftFrontLeg");
     EXPECT_EQ(front.record.solver, static_cast<std::uint8_t>(Solver::two_bone));
@@ -144,7 +147,7 @@ TEST(Quadruped, LegsOfTwoBonesAreSolvedAsSuchAndBendAsTheyRest) {
     EXPECT_EQ(find_chain(rigged.scene, "LeftHindLeg")->record.solver, static_cast<std::uint8_t>(Solver::any));
 }
 
-TEST(Quadruped, LegsBendInTheirPlaneToTheSideToWhichTheyAreBent) {
+TEST(Animal, LegsBendInTheirPlaneToTheSideToWhichTheyAreBent) {
     const Rigged rigged = rig(make_dog());
     for (const std::string side : {"left", "right"}) {
         for (const auto& [joint, next] : {std::pair("Hind2", "Hind3"), std::pair("Hind3", "Hind4")}) {
@@ -163,7 +166,7 @@ TEST(Quadruped, LegsBendInTheirPlaneToTheSideToWhichTheyAreBent) {
     }
 }
 
-TEST(Quadruped, AHumanInASkirtIsAHuman) {
+TEST(Animal, AHumanInASkirtIsAHuman) {
     HumanoidGltf character;
     for (const double front : {0.12, -0.12}) {
         for (const double side : {1.0, -1.0}) {
@@ -179,7 +182,7 @@ TEST(Quadruped, AHumanInASkirtIsAHuman) {
     EXPECT_EQ(find_chain(rig(character).scene, "LeftFrontLeg"), nullptr);
 }
 
-TEST(Quadruped, AllMayHangOnOneJoint) {
+TEST(Animal, AllMayHangOnOneJoint) {
     HumanoidGltf dog;
     dog.bones.clear();
     dog.add("body", "", {0, 0.6, 0});
@@ -202,7 +205,7 @@ TEST(Quadruped, AllMayHangOnOneJoint) {
     EXPECT_EQ(rigged.ends("Tail"), Ends("tail1", "tail2"));
 }
 
-TEST(Quadruped, BonesThatStandAndJointsThatAreHardlyBentHaveLimits) {
+TEST(Animal, BonesThatStandAndJointsThatAreHardlyBentHaveLimits) {
     HumanoidGltf dog = make_dog();
     dog["neck"].position = {0, 0.8, 0.1};
     dog["skull"].position = {0, 1.0, 0.1};
@@ -212,20 +215,118 @@ TEST(Quadruped, BonesThatStandAndJointsThatAreHardlyBentHaveLimits) {
         EXPECT_EQ(rigged.scene.joints[joint_named(rigged.scene, name)].constraints.size(), 1u) << name;
 }
 
-TEST(Quadruped, MoreLegsStandingAreSomethingElse) {
-    HumanoidGltf insect = make_dog();
-    for (const double side : {1.0, -1.0}) {
-        const std::string s = side > 0 ? "left" : "right";
-        insect.add(s + "Middle1", "back", {side * 0.1, 0.55, 0.0});
-        insect.add(s + "Middle2", s + "Middle1", {side * 0.1, 0.3, -0.05});
-        insect.add(s + "Middle3", s + "Middle2", {side * 0.1, 0.05, 0.0});
+/// A beetle or a spider: pairs of legs of two bones each, spread by `turn` radians from sideways at both ends.
+HumanoidGltf make_insect(std::size_t pairs, double turn) {
+    HumanoidGltf insect;
+    insect.bones.clear();
+    insect.add("body", "", {0, 0.4, 0});
+    insect.add("skull", "body", {0, 0.5, 0.4});
+    for (std::size_t pair = 0; pair < pairs; ++pair) {
+        const double along = 1.0 - 2.0 * static_cast<double>(pair) / static_cast<double>(pairs - 1);
+        const glm::dvec3 way = glm::dvec3(std::cos(along * turn), 0, std::sin(along * turn));
+        const std::string number = std::to_string(pair + 1);
+        for (const double side : {1.0, -1.0}) {
+            const std::string s = (side > 0 ? "left" : "right") + number;
+            const auto add = [&](const std::string& name, const std::string& parent, double out, double height) {
+                insect.add(name, parent, {side * (0.1 + out * way.x), height, 0.3 * along + out * way.z});
+            };
+            add(s + "Leg1", "body", 0.0, 0.4);
+            add(s + "Leg2", s + "Leg1", 0.3, 0.6);
+            add(s + "Leg3", s + "Leg2", 0.5, 0.0);
+        }
     }
-    const Rigged rigged = rig(insect);
-    EXPECT_TRUE(rigged.report.proposals().empty());
-    EXPECT_EQ(warned(rigged.report, "nothing proposed"), 1u);
+    return insect;
 }
 
-TEST(Quadruped, WingsAndManesAreNoLegs) {
+TEST(Animal, OfMoreLegsGetsAChainForEachAndNoLimits) {
+    for (const std::size_t pairs : {3u, 4u, 5u}) {
+        for (const double turn : {0.0, 1.1}) {
+            const Rigged rigged = rig(make_insect(pairs, turn));
+            EXPECT_EQ(rigged.scene.chains.size(), 2 * pairs);
+            for (std::size_t pair = 1; pair <= pairs; ++pair) {
+                const std::string number = std::to_string(pair);
+                EXPECT_EQ(rigged.ends("LeftLeg" + number), Ends("left" + number + "Leg1", "left" + number + "Leg3"));
+                EXPECT_EQ(rigged.ends("RightLeg" + number), Ends("right" + number + "Leg1", "right" + number + "Leg3"));
+            }
+            for (const Joint& joint : rigged.scene.joints) EXPECT_TRUE(joint.constraints.empty()) << joint.name;
+            Scene scene = rigged.scene;
+            Report unheard;
+            find_roles(scene, kNone, unheard);
+            EXPECT_TRUE(scene.roles.empty());
+        }
+    }
+}
+
+TEST(Animal, NamesOfHumanLegsMakeNoHumanOfSix) {
+    HumanoidGltf beetle = make_insect(3, 0.0);
+    for (const char* side : {"left", "right"}) {
+        const std::string mark = std::string(side) == "left" ? ".L" : ".R";
+        for (const auto& [number, which] : {std::pair("1", "front"), std::pair("2", "middle"), std::pair("3", "rear")}) {
+            beetle.names[std::string(side) + number + "Leg1"] = std::string(which) + "_upper_leg" + mark;
+            beetle.names[std::string(side) + number + "Leg2"] = std::string(which) + "_lower_leg" + mark;
+            beetle.names[std::string(side) + number + "Leg3"] = std::string(which) + "_foot" + mark;
+        }
+    }
+    beetle["skull"].position.z = -0.4;  // the names know better
+    beetle.names["skull"] = "abdomen";
+    const Rigged rigged = rig(beetle);
+    EXPECT_EQ(rigged.ends("LeftLeg1"), Ends("front_upper_leg.L", "front_foot.L"));
+    EXPECT_EQ(rigged.ends("RightLeg3"), Ends("rear_upper_leg.R", "rear_foot.R"));
+    EXPECT_EQ(rigged.scene.chains.size(), 6u);
+}
+
+TEST(Animal, AllLegsOfASideMayHangOnAJointInTheMiddle) {
+    HumanoidGltf spider = make_insect(4, 1.1);
+    for (const char* side : {"left", "right"}) {
+        spider.bones.insert(spider.bones.begin() + 1, {std::string(side) + "Legs", "body", {0, 0.4, 0}});
+        for (const char* number : {"1", "2", "3", "4"})
+            spider[std::string(side) + number + "Leg1"].parent = std::string(side) + "Legs";
+    }
+    const Rigged rigged = rig(spider);
+    EXPECT_EQ(rigged.ends("LeftLeg1"), Ends("left1Leg1", "left1Leg3"));
+    EXPECT_EQ(rigged.ends("RightLeg4"), Ends("right4Leg1", "right4Leg3"));
+}
+
+TEST(Animal, FrontLegsThatDoNotStandAreArms) {
+    HumanoidGltf rex = make_dog();
+    for (const char* side : {"left", "right"}) {
+        const std::string s = side;
+        const std::string mark = s == "left" ? ".L" : ".R";
+        for (const char* number : {"1", "2", "3", "4"}) rex[s + "Front" + number].position.y += 0.4;
+        rex.names[s + "Front1"] = "FrontUpLeg" + mark;
+        rex.names[s + "Front2"] = "FrontLowLeg" + mark;
+        rex.names[s + "Front3"] = "FrontFoot" + mark;
+        rex.names[s + "Hind1"] = "BackUpLeg" + mark;
+        rex.names[s + "Hind2"] = "BackLowLeg" + mark;
+        rex.names[s + "Hind4"] = "BackFoot" + mark;
+    }
+    const Rigged rigged = rig(rex);
+    EXPECT_EQ(rigged.ends("LeftLeg"), Ends("BackUpLeg.L", "BackFoot.L"));
+    EXPECT_EQ(rigged.ends("RightArm"), Ends("FrontUpLeg.R", "FrontFoot.R"));
+    for (const Joint& joint : rigged.scene.joints) EXPECT_TRUE(joint.constraints.empty()) << joint.name;
+}
+
+TEST(Animal, IsFoundAsItsSkinIsBoundIfItRestsInAFrameOfAWalk) {
+    Scene scene = *make_dog().build().import();
+    bind_at_rest(scene);
+    const auto turn = [&](const char* name, double degrees) {
+        Transform& rest = scene.joints[joint_named(scene, name)].rest;
+        const glm::vec4& q = rest.rotation;
+        const glm::dquat turned =
+            glm::dquat(q.w, q.x, q.y, q.z) * glm::angleAxis(degrees * kTestDegree, glm::dvec3(1, 0, 0));
+        rest.rotation = {turned.x, turned.y, turned.z, turned.w};
+    };
+    turn("leftFront1", 50.0);
+    turn("rightHind1", -45.0);
+    turn("leftHind2", 40.0);
+    Report report;
+    auto_rig(scene, {}, report);
+    const Rigged rigged{std::move(scene), std::move(report)};
+    expect_chains(rigged);
+    EXPECT_EQ(rigged.scene.joints[joint_named(rigged.scene, "rightHind1")].constraints.size(), 1u);
+}
+
+TEST(Animal, WingsAndManesAreNoLegs) {
     HumanoidGltf dragon = make_dog();
     for (const double side : {1.0, -1.0}) {
         const std::string s = side > 0 ? "left" : "right";
@@ -238,4 +339,4 @@ TEST(Quadruped, WingsAndManesAreNoLegs) {
 }
 
 }  // namespace
-}  // namespace bendy::converter::quadruped_test
+}  // namespace bendy::converter::animal_test
