@@ -17,6 +17,7 @@ struct HumanSpec {
     double facing = 0.0;     ///< turned about the vertical
     bool is_z_up = false;    ///< the skeleton below its root has Z up, and centimetres
     double arms_down = 0.0;  ///< 0: a T-pose
+    double collars_up = 0.0, feet_down = 0.0, bent = 0.0;  ///< of collarbones, soles and the trunk from the hips upwards
     double thigh = 0.45, shin = 0.42;
     double hip_width = 0.2;
     std::uint32_t spine = 3;
@@ -51,12 +52,12 @@ private:
         const Role roles[] = {Role::spine, Role::chest, Role::upper_chest};
         for (std::uint32_t k = 0; k < human_.spine; ++k) {
             const double height = hips + 0.1 + 0.4 * k / human_.spine;
-            trunk_ = add("spine" + std::to_string(k), trunk_, {0, height, 0.01}, roles[k]);
+            trunk_ = add("spine" + std::to_string(k), trunk_, bent({0, height, 0.01}), roles[k]);
         }
         const double shoulders = hips + 0.5;
         std::uint32_t neck = trunk_;
-        if (human_.has_neck) neck = add("neck", trunk_, {0, shoulders + 0.05, 0}, Role::neck);
-        add("head", neck, {0, shoulders + 0.15, 0.01}, Role::head);
+        if (human_.has_neck) neck = add("neck", trunk_, bent({0, shoulders + 0.05, 0}), Role::neck);
+        add("head", neck, bent({0, shoulders + 0.05, 0}) + glm::dvec3(0, 0.1, 0.01), Role::head);
     }
 
     void add_arm(double side) {
@@ -64,9 +65,11 @@ private:
         const double down = human_.arms_down * M_PI / 180.0;
         const glm::dvec3 way(side * std::cos(down), -std::sin(down), 0.0);
         const double height = human_.thigh + human_.shin + 0.58;
-        const glm::dvec3 shoulder(side * 0.16, height, 0.0);
+        const double up = human_.collars_up * M_PI / 180.0;
+        const glm::dvec3 collar = bent({side * 0.03, height, 0.02});
+        const glm::dvec3 shoulder = collar + glm::dvec3(side * 0.13 * std::cos(up), 0.13 * std::sin(up), -0.02);
         const std::uint32_t clavicle =
-            add(name + "Shoulder", human_.has_loose_arms ? chest_ : trunk_, {side * 0.03, height, 0.02}, of(side, Role::left_shoulder));
+            add(name + "Shoulder", human_.has_loose_arms ? chest_ : trunk_, collar, of(side, Role::left_shoulder));
         const std::uint32_t upper = add(name + "Arm", clavicle, shoulder, of(side, Role::left_upper_arm));
         const std::uint32_t lower = add(name + "ForeArm", upper, shoulder + 0.28 * way, of(side, Role::left_lower_arm));
         spec.joints[lower].constraints = human_.elbows;
@@ -88,13 +91,21 @@ private:
             add(name + "Leg", upper, {x, human_.shin + 0.08, 0.01 * human_.thigh}, of(side, Role::left_lower_leg));
         const std::uint32_t foot =
             add(name + "Foot", human_.is_detached ? 0 : lower, {x, 0.08, 0}, of(side, Role::left_foot));
-        if (human_.has_toes) add(name + "Toes", foot, {x, 0.02, 0.13}, of(side, Role::left_toes));
+        const double down = human_.feet_down * M_PI / 180.0;
+        const glm::dvec3 sole(0, -0.06 * std::cos(down) - 0.13 * std::sin(down), 0.13 * std::cos(down) - 0.06 * std::sin(down));
+        if (human_.has_toes) add(name + "Toes", foot, glm::dvec3(x, 0.08, 0) + sole, of(side, Role::left_toes));
         if (human_.is_detached) return;
         ChainRecord leg;
         leg.start = upper;
         leg.effector = foot;
         leg.solver = static_cast<std::uint8_t>(Solver::two_bone);
         spec.chains.push_back(leg);  // "0": left, "1": right
+    }
+
+    /// A place on the trunk, with the body bent forward above the hips.
+    [[nodiscard]] glm::dvec3 bent(const glm::dvec3& place) const {
+        const glm::dvec3 hips(0, human_.thigh + human_.shin + 0.18, 0);
+        return hips + glm::angleAxis(human_.bent * M_PI / 180.0, glm::dvec3(1, 0, 0)) * (place - hips);
     }
 
     /// The same role on that side.

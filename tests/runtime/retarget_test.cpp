@@ -115,6 +115,72 @@ TEST(Retarget, AnArmThatHangsAtRestTurnsAboutItsAxisAsOneThatIsStretchedOut) {
               1e-5);
 }
 
+TEST(Retarget, BonesOfAnOddRestPoseHaveTheSourcesDirections) {
+    const std::vector<std::pair<std::string, std::string>> kTrunk{
+        {"spine0", "spine1"},      {"spine1", "spine2"},       {"spine2", "neck"},       {"neck", "head"},
+        {"leftShoulder", "leftArm"}, {"rightShoulder", "rightArm"}, {"leftFoot", "leftToes"}, {"rightFoot", "rightToes"}};
+    Human plain(HumanSpec{.axes = 2});
+    for (const HumanSpec& spec : {HumanSpec{.collars_up = 90.0}, HumanSpec{.feet_down = 55.0}, HumanSpec{.bent = 40.0},
+                                  HumanSpec{.facing = 90.0, .collars_up = 60.0, .feet_down = 60.0, .bent = 35.0}}) {
+        Human odd(spec);
+        for (const auto& [source, target] : {std::pair(&plain, &odd), std::pair(&odd, &plain)}) {
+            Retarget retargeted = made(*source, *target, kDirections);
+            for (unsigned seed = 0; seed < 10; ++seed) {
+                source->pose_at_random(seed, 0.4);
+                RetargetState state;
+                ASSERT_TRUE(retarget(target->pose(), retargeted, source->pose(), state));
+                EXPECT_LT(worst_direction(*source, *target), 2e-5);
+                for (const auto& [from, to] : kTrunk)
+                    EXPECT_LT(glm::length(source->way(from, to) - target->way(from, to)), 2e-5) << from;
+            }
+        }
+    }
+}
+
+TEST(Retarget, BonesThatDifferAsThoseOfRigsDoTurnAsTheSources) {
+    Human source(HumanSpec{});
+    Human target(HumanSpec{.collars_up = 30.0, .feet_down = 20.0, .bent = 15.0, .axes = 2});
+    Retarget retargeted = made(source, target, kDirections);
+    for (unsigned seed = 0; seed < 10; ++seed) {
+        source.pose_at_random(seed, 0.4);
+        RetargetState state;
+        ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+        for (const char* name : {"spine0", "spine2", "neck", "head", "leftShoulder", "rightShoulder", "leftFoot"})
+            EXPECT_LT(angle_of(source.turn(name), target.turn(name)), 2e-5) << name;
+    }
+}
+
+TEST(Retarget, RotationsOfTheSameRigMeanTheSameHoweverItRests) {
+    HumanModel walking(HumanSpec{.axes = 3});
+    std::uint32_t turned = 0;
+    for (auto& joint : walking.spec.joints) {  // as in a frame of a walk
+        const auto& q = joint.rest.rotation;
+        const double angle = 0.3 * std::sin(static_cast<double>(++turned));
+        if (turned < 3) continue;
+        const glm::dquat own = glm::dquat(q[3], q[0], q[1], q[2]) * glm::angleAxis(angle, glm::dvec3(0.6, 0.8, 0.0));
+        joint.rest.rotation = {static_cast<float>(own.x), static_cast<float>(own.y), static_cast<float>(own.z),
+                               static_cast<float>(own.w)};
+    }
+    walking.spec.joints[1].rest.translation[1] -= 0.2f;  // crouched
+    test::PosedBody<HumanModel> source(walking, 0.0), target(HumanModel(HumanSpec{.axes = 3}), 0.0);
+    for (const bool is_back : {false, true}) {
+        test::PosedBody<HumanModel>& from = is_back ? target : source;
+        test::PosedBody<HumanModel>& to = is_back ? source : target;
+        Retarget retargeted = made(from, to, kDirections);
+        EXPECT_FLOAT_EQ(retargeted.scale(), 1.0f);
+        for (unsigned seed = 0; seed < 10; ++seed) {
+            from.pose_at_random(seed, 0.4);
+            RetargetState state;
+            ASSERT_TRUE(retarget(to.pose(), retargeted, from.pose(), state));
+            for (const char* name : {"hips", "spine1", "head", "leftShoulder", "rightHand", "leftMiddle2", "rightFoot", "leftToes"}) {
+                EXPECT_LT(glm::length(from.place(name) - to.place(name)), 2e-5) << name;
+                const glm::dquat wanted(from.pose().local(from.joint(name)).rotation);
+                EXPECT_LT(angle_of(wanted, glm::dquat(to.pose().local(to.joint(name)).rotation)), 2e-5) << name;
+            }
+        }
+    }
+}
+
 TEST(Retarget, PartsThatHangOnAControlGoWithTheBody) {
     for (const HumanSpec& spec :
          {HumanSpec{.is_detached = true, .has_loose_arms = true, .axes = 2},

@@ -1,7 +1,5 @@
 #include "body.h"
 
-#include "model/standing_rotations.h"
-
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -83,7 +81,7 @@ Limb divide_leg(const Body& body, const LegChains& standing, std::size_t leg) {
 
 }  // namespace
 
-Body::Body(const Model& model, bool stands)
+Body::Body(const Model& model, std::span<const JointTransform> locals, const StandingPoseRecord* standing_pose)
     : model_(model), by_role_(static_cast<std::size_t>(Role::spine_chain), kNone), has_role_(model.joints().size()) {
     for (const JointRole& role : model.roles()) {
         has_role_[role.joint] = true;
@@ -98,19 +96,12 @@ Body::Body(const Model& model, bool stands)
     const auto joints = model.joints();
     rest_.reserve(joints.size());
     turns_.reserve(joints.size());
-    std::vector<StandingJoint> standing;
-    if (stands && model.standing_pose() != nullptr) {
-        standing_pose_ = model.standing_pose()->pose;
-        standing = standing_rotations(model);
-    }
-    auto next = standing.begin();
+    if (standing_pose != nullptr) standing_pose_ = *standing_pose;
     for (std::uint32_t number = 0; number < joints.size(); ++number) {  // parents come first
         const Joint& joint = joints[number];
-        JointTransform transform = joint.rest;
-        if (next != standing.end() && next->joint == number) transform.rotation = (next++)->rotation;
-        const glm::dmat4 local = to_matrix(transform, joint.shear);
+        const glm::dmat4 local = to_matrix(locals[number], joint.shear);
         rest_.push_back(joint.parent == kNone ? local : rest_[joint.parent] * local);
-        turns_.push_back(space(joint.parent) * glm::normalize(glm::dquat(transform.rotation)));
+        turns_.push_back(space(joint.parent) * glm::normalize(glm::dquat(locals[number].rotation)));
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <bendy/runtime/model.h>
 #include <bendy/runtime/retarget.h>
+#include <bendy/runtime/transform.h>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
@@ -11,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace bendy {
@@ -29,12 +31,12 @@ struct Limb {
     [[nodiscard]] std::uint32_t toes() const { return foot + 1 < joints.size() ? joints.back() : kNone; }
 };
 
-/// A model as a body: what its joints are, and where they are in model space in its standing pose, or at rest if it has
-/// none.
+/// A model as a body: what its joints are, and where they are in model space in a pose in which it stands.
 class Body {
 public:
-    /// \param stands  false: at rest in any case
-    Body(const Model& model, bool stands);
+    /// \param locals  the pose: by joint, relative to its parent
+    /// \param standing_pose  says up, front and ground of the pose; null: they are measured
+    Body(const Model& model, std::span<const JointTransform> locals, const StandingPoseRecord* standing_pose);
 
     [[nodiscard]] const Model& model() const { return model_; }
     /// Returns the joint with that role; kNone if there is none.

@@ -72,6 +72,14 @@ constexpr Hand kHands[] = {
      {Role::right_middle_proximal, Role::right_index_proximal, Role::right_ring_proximal}},
 };
 
+/// How far bones of standing bodies differ between rigs of different makers, as cosines: the 95th percentile over pairs
+/// of 44 bodies, in degrees. Bones that differ by more do not mean the same: one of the bodies does not stand as people
+/// do.
+constexpr double kCollarbone = 0.67;  // 48
+constexpr double kTrunk = 0.91;       // 25
+constexpr double kNeck = 0.85;        // 32
+constexpr double kFoot = 0.80;        // 37
+
 bool has_same_rest(const Joint& a, const Joint& b) {
     return a.rest.rotation == b.rest.rotation && a.rest.translation == b.rest.translation &&
            a.rest.scale == b.rest.scale && a.shear == b.shear;
@@ -112,6 +120,28 @@ public:
         }
     }
 
+    /// Aligns a column of joints that are paired where its bones differ by more than those of standing bodies do.
+    /// \param from_end, to_end  what the last joint of the column points to
+    void align_column(std::vector<std::uint32_t> from, std::uint32_t from_end, std::vector<std::uint32_t> to,
+                      std::uint32_t to_end, double usual) {
+        if (from.empty() || to.empty() || from_end == kNone || to_end == kNone) return;
+        from.push_back(from_end);
+        to.push_back(to_end);
+        const auto way_of_source = [&](std::uint32_t joint) -> glm::dvec3 {
+            const auto at = std::find(from.begin(), from.end(), joint);
+            // What carries the column points elsewhere.
+            const auto first = at == from.end() ? from.begin() : at + 1 == from.end() ? at - 1 : at;
+            return source_.place(*(first + 1)) - source_.place(*first);
+        };
+        for (std::size_t k = 0; k + 1 < to.size(); ++k) {
+            const JointPair& pair = pairs_[to[k]];
+            if (pair.a == kNone) continue;
+            glm::dvec3 way = way_of_source(pair.a);
+            if (pair.b != kNone) way = (1.0 - pair.share) * way + pair.share * way_of_source(pair.b);
+            align_if_unlike(to[k], way, target_.place(to[k + 1]) - target_.place(to[k]), usual);
+        }
+    }
+
     /// Pairs the joints of a limb from hip or shoulder outwards, and those that carry it from there inwards.
     void pair_limb(const Limb& from, const Limb& to) {
         const std::size_t carriers = std::min(from.girdle.size(), to.girdle.size());
@@ -130,6 +160,10 @@ public:
         }
         if (!from.is_leg) return;
         align(to.joints[foot], heading_of(source_, from, foot), heading_of(target_, to, foot));
+        if (is_human_ && from.toes() != kNone && to.toes() != kNone) {
+            align_if_unlike(to.joints[foot], source_.place(from.toes()) - source_.place(from.joints[foot]),
+                            target_.place(to.toes()) - target_.place(to.joints[foot]), kFoot);
+        }
         for (std::size_t k = foot + 1; k < to.joints.size(); ++k) {
             if (is_paired(to.joints[k])) pairs_[to.joints[k]].align = pairs_[to.joints[k - 1]].align;
         }
@@ -140,6 +174,12 @@ public:
         if (!is_paired(joint)) return;
         const auto way = [&](const Body& body) { return way_of(body, bone.joint, bone.end); };
         align(joint, way(source_), way(target_));
+    }
+
+    void align_collarbone(Role shoulder, Role arm) {
+        const auto source = way_of(source_, shoulder, arm);
+        const auto target = way_of(target_, shoulder, arm);
+        if (source && target) align_if_unlike(target_.joint(shoulder), *source, *target, kCollarbone);
     }
 
     void align_as(Role joint, Role above) {
@@ -207,7 +247,14 @@ private:
         is_used_[a] = true;
     }
 
-    /// Feet are flat on the ground at rest, so only their headings may differ.
+    /// Aligns the joint if the bones' directions are farther apart than the cosine says.
+    void align_if_unlike(std::uint32_t joint, const glm::dvec3& source, const glm::dvec3& target, double usual) {
+        const double lengths = glm::length(source) * glm::length(target);
+        if (!is_paired(joint) || !(glm::dot(turn_ * source, target) < usual * lengths)) return;
+        align(joint, source, target);
+    }
+
+    /// Feet are flat on the ground at rest, so usually only their headings differ.
     static std::optional<glm::dvec3> heading_of(const Body& body, const Limb& limb, std::size_t foot) {
         if (foot + 1 >= limb.joints.size()) return std::nullopt;
         const glm::dvec3 way = body.place(limb.joints.back()) - body.place(limb.joints[foot]);
@@ -252,6 +299,7 @@ private:
     const Body& source_;
     const Body& target_;
     glm::dquat turn_;
+    bool is_human_ = target_.kind() == BodyKind::human;
     std::vector<JointPair> pairs_;
     std::vector<bool> is_used_;
 };
@@ -287,6 +335,16 @@ std::vector<JointPair> pair_joints(const Body& source, const Body& target, const
     if (!are_alike) {
         for (std::size_t limb = 0; limb < target.limbs().size(); ++limb)
             pairs.align_limb(source.limbs()[limb], target.limbs()[limb]);
+        if (target.kind() == BodyKind::human) {
+            const auto end_of_spine = [&](const Body& body) {
+                const std::vector<std::uint32_t> above = neck(body);
+                return above.empty() ? body.joint(Role::head) : above.front();
+            };
+            pairs.align_column(spine(source), end_of_spine(source), spine(target), end_of_spine(target), kTrunk);
+            pairs.align_column(neck(source), source.joint(Role::head), neck(target), target.joint(Role::head), kNeck);
+            pairs.align_collarbone(Role::left_shoulder, Role::left_upper_arm);
+            pairs.align_collarbone(Role::right_shoulder, Role::right_upper_arm);
+        }
         for (const Bone& bone : kBones) pairs.align_bone(bone);
         for (const Hand& hand : kHands) pairs.align_hand(hand);
         for (const Bone& end : kEnds) pairs.align_as(end.joint, end.end);

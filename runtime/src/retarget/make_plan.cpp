@@ -1,6 +1,7 @@
 #include "body.h"
 #include "joint_pairs.h"
 #include "retarget_plan.h"
+#include "same_rig.h"
 #include "target_names.h"
 
 #include "pose/ik_link.h"
@@ -359,12 +360,26 @@ std::optional<RetargetError> fault_of(Body& body, bool is_source) {
     return std::nullopt;
 }
 
+const StandingPoseRecord* record_of(const Model& model) {
+    return model.standing_pose() == nullptr ? nullptr : &model.standing_pose()->pose;
+}
+
+Body body_of(const Model& model, const RetargetOptions& options) {
+    if (options.rest_poses == RestPoses::measured) return {model, standing_locals(model), record_of(model)};
+    std::vector<JointTransform> rest;
+    for (const Joint& joint : model.joints()) rest.push_back(joint.rest);
+    return {model, rest, nullptr};
+}
+
 }  // namespace
 
 Result<Retarget, RetargetError> RetargetPlan::make(const Model& source, const Model& target,
                                                    const RetargetOptions& options) {
-    const bool stand = options.rest_poses == RestPoses::measured;
-    Body from(source, stand), to(target, stand);
+    Body from = body_of(source, options), to = body_of(target, options);
+    if (options.rest_poses == RestPoses::measured) {
+        const std::vector<JointTransform> locals = locals_of_same_rig(source, target);
+        if (!locals.empty()) from = Body(source, locals, record_of(target));
+    }
     if (auto fault = fault_of(from, true)) return *fault;
     if (auto fault = fault_of(to, false)) return *fault;
     if (from.kind() != to.kind())
