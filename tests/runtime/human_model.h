@@ -24,6 +24,7 @@ struct HumanSpec {
     bool is_detached = false;  ///< legs are not below the hips, feet not below the legs
     /// Of a detached one: they hang on a control beside the hips.
     bool has_loose_arms = false, has_loose_spine = false;
+    bool has_arms = true, has_hands = true, has_head = true;
     bool has_neck = true, has_toes = true, has_fingers = true;
     unsigned axes = 1;  ///< of the joints: other ones for another number; 0: as model space
     bool has_roles = true;
@@ -38,7 +39,9 @@ public:
         : BodyModel({human.facing, human.is_z_up, human.axes, human.prefix}), human_(human) {
         add_trunk();
         if (human_.has_loose_arms) chest_ = add("arms", 0, {0, 1, -0.5}, Role::none);
-        for (const double side : {1.0, -1.0}) add_arm(side);
+        for (const double side : {1.0, -1.0}) {
+            if (human_.has_arms) add_arm(side);
+        }
         for (const double side : {1.0, -1.0}) add_leg(side);
         if (human.has_roles) store_roles();
     }
@@ -57,7 +60,7 @@ private:
         const double shoulders = hips + 0.5;
         std::uint32_t neck = trunk_;
         if (human_.has_neck) neck = add("neck", trunk_, bent({0, shoulders + 0.05, 0}), Role::neck);
-        add("head", neck, bent({0, shoulders + 0.05, 0}) + glm::dvec3(0, 0.1, 0.01), Role::head);
+        if (human_.has_head) add("head", neck, bent({0, shoulders + 0.05, 0}) + glm::dvec3(0, 0.1, 0.01), Role::head);
     }
 
     void add_arm(double side) {
@@ -73,6 +76,7 @@ private:
         const std::uint32_t upper = add(name + "Arm", clavicle, shoulder, of(side, Role::left_upper_arm));
         const std::uint32_t lower = add(name + "ForeArm", upper, shoulder + 0.28 * way, of(side, Role::left_lower_arm));
         spec.joints[lower].constraints = human_.elbows;
+        if (!human_.has_hands) return;
         const std::uint32_t hand = add(name + "Hand", lower, shoulder + 0.53 * way, of(side, Role::left_hand));
         if (human_.has_fingers) {
             const std::uint32_t finger =

@@ -181,6 +181,31 @@ TEST(Retarget, RotationsOfTheSameRigMeanTheSameHoweverItRests) {
     }
 }
 
+TEST(Retarget, WhatOneOfTheTwoDoesNotHaveGoesAlong) {
+    const HumanSpec whole{.axes = 2};
+    for (const HumanSpec& half : {HumanSpec{.has_arms = false}, HumanSpec{.has_hands = false}, HumanSpec{.has_head = false},
+                                  HumanSpec{.has_arms = false, .has_head = false, .has_neck = false}}) {
+        for (const auto& [from, to] : {std::pair(whole, half), std::pair(half, whole)}) {
+            Human source(from), target(to);
+            Retarget retargeted = made(source, target);
+            for (unsigned seed = 0; seed < 5; ++seed) {
+                source.pose_at_random(seed, 0.3);
+                RetargetState state;
+                ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+                for (const char* side : {"left", "right"}) {
+                    const std::string s = side;
+                    EXPECT_LT(glm::length(source.way(s + "UpLeg", s + "Leg") - target.way(s + "UpLeg", s + "Leg")), 0.05);
+                    if (!half.has_arms) continue;
+                    EXPECT_LT(glm::length(source.way(s + "Arm", s + "ForeArm") - target.way(s + "Arm", s + "ForeArm")), 2e-5);
+                }
+                EXPECT_LT(angle_of(source.turn("spine2"), target.turn("spine2")), 2e-5);
+                if (from.has_arms || !to.has_arms) continue;
+                EXPECT_LT(angle_of(target.turn("leftHand"), target.turn("spine2")), 2e-5) << "at rest";
+            }
+        }
+    }
+}
+
 TEST(Retarget, PartsThatHangOnAControlGoWithTheBody) {
     for (const HumanSpec& spec :
          {HumanSpec{.is_detached = true, .has_loose_arms = true, .axes = 2},
@@ -601,16 +626,16 @@ TEST(Retarget, SaysWhichRolesAreMissing) {
     std::vector<RoleRecord> roles;
     for (const JointRole& role : whole.model().roles()) {
         const auto one = static_cast<Role>(role.role);
-        if (one != Role::left_hand && one != Role::right_foot) roles.push_back(role);
+        if (one != Role::left_upper_leg && one != Role::right_foot) roles.push_back(role);
     }
     const auto bytes = std::as_bytes(std::span(roles));
     spec.more = {test::make_leaf(FourCC("ROLE"), bytes)};
     const test::Owned half(test::build_file(spec));
     retargeted = Retarget::make(*half, whole.model());
     ASSERT_FALSE(retargeted);
-    EXPECT_EQ(retargeted.error().missing, (std::vector<Role>{Role::right_foot, Role::left_hand}));
+    EXPECT_EQ(retargeted.error().missing, (std::vector<Role>{Role::left_upper_leg, Role::right_foot}));
     EXPECT_EQ(error_text(retargeted.error()),
-              "the source has no joint for right_foot, left_hand: name them as \"roles\" in its rig file");
+              "the source has no joint for left_upper_leg, right_foot: name them as \"roles\" in its rig file");
 
     test::ModelSpec flat = HumanModel(HumanSpec{}).spec;
     flat.joints[0].rest.scale = {0, 0, 0};

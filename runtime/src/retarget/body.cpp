@@ -13,20 +13,8 @@
 namespace bendy {
 namespace {
 
-constexpr Role kNeeded[] = {Role::hips,
-                            Role::head,
-                            Role::left_upper_leg,
-                            Role::left_lower_leg,
-                            Role::left_foot,
-                            Role::right_upper_leg,
-                            Role::right_lower_leg,
-                            Role::right_foot,
-                            Role::left_upper_arm,
-                            Role::left_lower_arm,
-                            Role::left_hand,
-                            Role::right_upper_arm,
-                            Role::right_lower_arm,
-                            Role::right_hand};
+constexpr Role kNeeded[] = {Role::hips,           Role::left_upper_leg,  Role::left_lower_leg, Role::left_foot,
+                            Role::right_upper_leg, Role::right_lower_leg, Role::right_foot};
 
 constexpr std::array kLegs{Role::left_hind_leg, Role::right_hind_leg, Role::left_front_leg, Role::right_front_leg};
 constexpr std::size_t kFewest = 3;                // joints of a leg
@@ -135,10 +123,17 @@ std::vector<Role> Body::missing() const {
     for (const Role role : kind_ == BodyKind::human ? needed : needed.first(1)) {
         if (joint(role) == kNone) missing.push_back(role);
     }
+    if (kind_ == BodyKind::human && top() == joint(Role::hips)) missing.push_back(Role::head);
     for (const Role role : leg_roles_of(kind_)) {
         if (chain(role).size() < kFewest) missing.push_back(role);
     }
     return missing;
+}
+
+std::uint32_t Body::top() const {
+    const std::vector<std::uint32_t> column =
+        joints({Role::head, Role::neck, Role::upper_chest, Role::chest, Role::spine, Role::hips});
+    return column.empty() ? kNone : column.front();
 }
 
 glm::dquat Body::flip(std::uint32_t joint) const {
@@ -159,8 +154,16 @@ void Body::find_limbs() {
         limbs_.resize(4);
         limbs_[0].joints = joints({Role::left_upper_leg, Role::left_lower_leg, Role::left_foot, Role::left_toes});
         limbs_[1].joints = joints({Role::right_upper_leg, Role::right_lower_leg, Role::right_foot, Role::right_toes});
-        limbs_[2].joints = joints({Role::left_upper_arm, Role::left_lower_arm, Role::left_hand});
-        limbs_[3].joints = joints({Role::right_upper_arm, Role::right_lower_arm, Role::right_hand});
+        const auto arm = [&](std::initializer_list<Role> roles) {
+            std::vector<std::uint32_t> found;
+            for (const Role role : roles) {
+                if (joint(role) == kNone) break;
+                found.push_back(joint(role));
+            }
+            return found;
+        };
+        limbs_[2].joints = arm({Role::left_upper_arm, Role::left_lower_arm, Role::left_hand});
+        limbs_[3].joints = arm({Role::right_upper_arm, Role::right_lower_arm, Role::right_hand});
         limbs_[2].is_leg = limbs_[3].is_leg = false;
         return;
     }
@@ -197,13 +200,16 @@ bool Body::measure() {
     const glm::dvec3 hips = 0.5 * (place(limbs_[0].upper()) + place(limbs_[1].upper()));
     const glm::dvec3 feet = 0.5 * (place(limbs_[0].foot_joint()) + place(limbs_[1].foot_joint()));
     glm::dvec3 across(0.0), tops(0.0), bottoms(0.0);
-    for (std::size_t left = 0; left < limbs_.size(); left += 2)
+    for (std::size_t left = 0; left < limbs_.size(); left += 2) {
+        if (limbs_[left].joints.empty() || limbs_[left + 1].joints.empty()) continue;
         across = across + place(limbs_[left].upper()) - place(limbs_[left + 1].upper());
+    }
     for (const Limb& limb : limbs_) {
+        if (kind_ == BodyKind::human) break;
         tops += place(limb.upper()) / static_cast<double>(limbs_.size());
         bottoms += place(limb.foot_joint()) / static_cast<double>(limbs_.size());
     }
-    const glm::dvec3 along = kind_ == BodyKind::human ? place(Role::head) - feet : tops - bottoms;
+    const glm::dvec3 along = kind_ == BodyKind::human ? place(top()) - feet : tops - bottoms;
     leg_ = 0.0;
     for (std::size_t leg = 0; leg < 2; ++leg) {
         const Limb& limb = limbs_[leg];

@@ -20,11 +20,14 @@ namespace bendy {
 /// A leg or an arm.
 struct Limb {
     std::vector<std::uint32_t> girdle;  ///< what carries it: an animal's shoulder blade or pelvis
-    /// From hip or shoulder outwards: three or more, the last of which are those of the paw.
+    /// From hip or shoulder outwards: three or more, the last of which are those of the paw. Fewer of an arm that the
+    /// body has in part, or not at all.
     std::vector<std::uint32_t> joints;
     std::size_t foot = 2;  ///< among the joints: foot or hand
     bool is_leg = true;
 
+    [[nodiscard]] bool is_whole() const { return joints.size() > foot; }
+    // Of a whole one:
     [[nodiscard]] std::uint32_t upper() const { return joints.front(); }
     [[nodiscard]] std::uint32_t foot_joint() const { return joints[foot]; }
     /// kNone if nothing is below the foot.
@@ -53,6 +56,8 @@ public:
     [[nodiscard]] const glm::dmat4& rest(std::uint32_t joint) const { return rest_[joint]; }
     [[nodiscard]] glm::dvec3 place(std::uint32_t joint) const { return {rest_[joint][3]}; }
     [[nodiscard]] glm::dvec3 place(Role role) const { return place(joint(role)); }
+    /// The head of a human, or else the highest of its joints from there down to the hips.
+    [[nodiscard]] std::uint32_t top() const;
     /// The joint's orientation: the product of the rotations down to it. Uneven scales above it are ignored, mirroring
     /// ones are half turns.
     [[nodiscard]] const glm::dquat& turn(std::uint32_t joint) const { return turns_[joint]; }

@@ -153,12 +153,18 @@ public:
 
     /// Where one of the two has a foot already, the other's joint is held as a foot too.
     void align_limb(const Limb& from, const Limb& to) {
-        const std::size_t foot = std::min(from.foot, to.foot);
+        const std::size_t joints = std::min(from.joints.size(), to.joints.size());
+        if (joints == 0) return;
+        const std::size_t foot = std::min({from.foot, to.foot, joints - 1});
         for (std::size_t k = 0; k < foot; ++k) {
             align(to.joints[k], source_.place(from.joints[k + 1]) - source_.place(from.joints[k]),
                   target_.place(to.joints[k + 1]) - target_.place(to.joints[k]));
         }
-        if (!from.is_leg) return;
+        if (!from.is_leg) {
+            // Without a hand nobody knows where the forearm points.
+            if (foot == 1) pairs_[to.joints[1]].align = pairs_[to.joints[0]].align;
+            return;
+        }
         align(to.joints[foot], heading_of(source_, from, foot), heading_of(target_, to, foot));
         if (is_human_ && from.toes() != kNone && to.toes() != kNone) {
             align_if_unlike(to.joints[foot], source_.place(from.toes()) - source_.place(from.joints[foot]),

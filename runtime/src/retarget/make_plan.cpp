@@ -82,7 +82,9 @@ private:
             need(pair.a);
             need(pair.b);
         }
-        for (const Limb& limb : source_.limbs()) need(limb.foot_joint());
+        for (const Limb& limb : source_.limbs()) {
+            if (limb.is_whole()) need(limb.foot_joint());
+        }
         turn_of_.assign(parents.size(), kNone);
         for (std::uint32_t joint = 0; joint < parents.size(); ++joint) {
             if (!is_needed[joint]) continue;
@@ -238,6 +240,7 @@ private:
         plan_.limbs.resize(target_.limbs().size());
         for (std::size_t k = 0; k < plan_.limbs.size(); ++k) {
             const Limb& limb = target_.limbs()[k];
+            if (!limb.is_whole() || !source_.limbs()[k].is_whole()) continue;
             make_limb(plan_.limbs[k], source_.limbs()[k], limb, k < 2 ? ahead : -ahead);
             if (limb.is_leg) make_foot(plan_.feet.emplace_back(), source_.limbs()[k], limb);
         }

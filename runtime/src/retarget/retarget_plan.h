@@ -79,10 +79,10 @@ struct ContactPlan {
     double lift = 0.0;             ///< metres to add to a mapped position, so that it rests at the target's height
 };
 
-/// An arm or a leg of the target.
+/// An arm or a leg of the target; one that either body has only in part cannot reach.
 struct LimbPlan {
-    std::uint32_t upper = 0, lower = 0, end = 0;
-    std::uint32_t foot = 0;        ///< or hand; of an animal it may be below the end: `end` is the hock then
+    std::uint32_t upper = kNone, lower = kNone, end = kNone;
+    std::uint32_t foot = kNone;    ///< or hand; of an animal it may be below the end: `end` is the hock then
     const Chain* chain = nullptr;  ///< of the target; null: `own`
     Chain own;
     bool can_reach = false;

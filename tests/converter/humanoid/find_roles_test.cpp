@@ -407,6 +407,26 @@ TEST(FindRoles, PartsOfTheBodyMayHangOnControlsBesideTheSpine) {
     EXPECT_EQ(roles_of(human), Roles());
 }
 
+TEST(FindRoles, ARobotMayHaveNoArms) {
+    HumanoidGltf robot;
+    std::erase_if(robot.bones, [](const HumanoidGltf::Bone& bone) {
+        return bone.name.find("Arm") != std::string::npos || bone.name.find("Hand") != std::string::npos ||
+               bone.name.find("Shoulder") != std::string::npos;
+    });
+    Roles roles = roles_of(robot);
+    EXPECT_EQ(roles.at("hips"), "hips");
+    EXPECT_EQ(roles.at("spine"), "spine");
+    EXPECT_EQ(roles.at("chest"), "chest");
+    EXPECT_EQ(roles.at("neck"), "neck");
+    EXPECT_EQ(roles.at("left_toes"), "leftToes");
+    // A head on two legs is anything.
+    std::erase_if(robot.bones, [](const HumanoidGltf::Bone& bone) {
+        return bone.name == "spine" || bone.name == "chest" || bone.name == "neck";
+    });
+    robot["head"].parent = "hips";
+    EXPECT_EQ(roles_of(robot), Roles());
+}
+
 TEST(FindRoles, TailsAndWingsOfAHuman) {
     HumanoidGltf demon;
     demon.add("tail1", "hips", {0, 0.95, -0.1});

@@ -287,6 +287,11 @@ private:
             log_.warnings.push_back("nothing here follows " + counted(lost.size(), "joint") + ": " +
                                     list_names(names, lost));
         }
+        if (const auto still = missing_there(); !still.empty()) {
+            log_.warnings.push_back("the source has no joints for " + counted(still.size(), "joint") +
+                                    " of head and arms here, which go along as they rest: " +
+                                    list_names(names_of(target_.joints()), still));
+        }
         if (const auto stretched = numbers_in(stretched_); !stretched.empty()) {
             log_.warnings.push_back("limbs keep their lengths; the clips move or scale " +
                                     counted(stretched.size(), "joint") + " against " +
@@ -306,6 +311,18 @@ private:
         std::vector<std::size_t> all(lost.size());
         for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
         log_.warnings.push_back("there are no morph targets here for the weights of " + list_names(lost, all));
+    }
+
+    /// Joints of the target's arms and head that nothing moves.
+    [[nodiscard]] std::vector<std::size_t> missing_there() const {
+        constexpr std::array kParts{Role::head,           Role::left_upper_arm,  Role::left_lower_arm, Role::left_hand,
+                                    Role::right_upper_arm, Role::right_lower_arm, Role::right_hand};
+        std::vector<std::size_t> still;
+        for (const JointRole& role : target_.roles()) {
+            const bool counts = std::find(kParts.begin(), kParts.end(), static_cast<Role>(role.role)) != kParts.end();
+            if (counts && retarget_.joints()[role.joint] == kNone) still.push_back(role.joint);
+        }
+        return still;
     }
 
     [[nodiscard]] bool animates(std::uint32_t mesh) const {

@@ -255,11 +255,13 @@ private:
         const auto trunk = unit(a.root_place - b.root_place);
         if (!up || !trunk) return false;
         const double length = 0.5 * (a.length + b.length);
+        // Feet of an IK rig, which stand before and behind the legs, point forward.
+        const bool is_one_ground = std::abs(glm::dot(a.foot_place - b.foot_place, *up)) < kGround * length;
         const bool is_level = std::abs(glm::dot(*trunk, *up)) < 0.5;
         // Some legs begin with a shoulder blade and a pelvis, which meet in the middle of the back.
         const bool has_trunk = std::max(glm::distance(a.root_place, b.root_place),
                                         glm::distance(a.foot_place, b.foot_place)) > 0.3 * length;
-        return is_level && has_trunk && std::abs(glm::dot(a.chains->across, *trunk)) < 0.3;
+        return is_one_ground && is_level && has_trunk && std::abs(glm::dot(a.chains->across, *trunk)) < 0.3;
     }
 
     // --- trunk

@@ -23,7 +23,9 @@ public:
         if (!has_limbs() || !bones_.has(Role::head) || found_.has_front_legs) return std::nullopt;
         const std::optional<Posture> posture = measure_posture(rest_, found_);
         if (!posture || !posture->is_upright || !posture->has_feet_forward) return std::nullopt;
-        for (const Limb limb : {Limb::left_arm, Limb::right_arm, Limb::left_leg, Limb::right_leg}) add_end(limb);
+        for (const Limb limb : {Limb::left_arm, Limb::right_arm, Limb::left_leg, Limb::right_leg}) {
+            if (bones_.has(bones_of(limb).lower)) add_end(limb);
+        }
         if (!find_hips() || !find_trunk()) return std::nullopt;
         add_details(scene_, rest_, bones_);
         return bones_;
@@ -36,8 +38,16 @@ private:
     }
     [[nodiscard]] bool is_wing(Role arm) const { return NameWords(scene_.joints[bones_[arm]].name).has("wing"); }
 
+    [[nodiscard]] bool has_arms() const { return bones_.has(Role::left_upper_arm); }
+
+    /// Robots may have no arms at all; one arm is no human's, and two legs with wings are a bird's.
     [[nodiscard]] bool has_limbs() const {
+        bool has_any_arm = false;
+        for (const Role bone : {Role::left_upper_arm, Role::left_lower_arm, Role::right_upper_arm, Role::right_lower_arm})
+            has_any_arm = has_any_arm || bones_.has(bone);
+        if (!has_any_arm && !find_wing(scene_, BodySide::left).empty()) return false;
         for (const Limb limb : {Limb::left_arm, Limb::right_arm, Limb::left_leg, Limb::right_leg}) {
+            if (!has_any_arm && (limb == Limb::left_arm || limb == Limb::right_arm)) continue;
             const LimbBones of_limb = bones_of(limb);
             if (!bones_.has(of_limb.upper) || !bones_.has(of_limb.lower)) return false;
             if (is_wing(of_limb.upper) || is_wing(of_limb.lower)) return false;
@@ -103,6 +113,7 @@ private:
     /// The joint of the column that the arms leave from: their common ancestor or, if they hang on a control, the
     /// highest below their middle. Its end if they leave from the hips; nothing if they are not beside the column.
     [[nodiscard]] std::optional<std::size_t> find_chest(const std::vector<std::uint32_t>& column) const {
+        if (!has_arms()) return column.empty() ? std::nullopt : std::optional(column.size() - 1);
         const std::uint32_t left = bones_[Role::left_upper_arm];
         const std::uint32_t right = bones_[Role::right_upper_arm];
         const std::uint32_t arms = common_ancestor(scene_, rest_, {left, right});
@@ -139,6 +150,7 @@ private:
         path.erase(neck, path.end());
         // Some rigs have a joint `Hips` above the legs' joint, which carries the spine alone.
         std::erase_if(path, [&](std::uint32_t joint) { return is_named(joint, BodyPart::hips); });
+        if (path.empty() && !has_arms()) return false;
         bones_[Role::spine] = path.empty() ? kNone : path.front();
         bones_[Role::chest] = path.size() < 2 ? kNone : path[path.size() / 2];
         bones_[Role::upper_chest] = path.size() < 3 ? kNone : path.back();

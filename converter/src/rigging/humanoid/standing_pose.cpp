@@ -69,7 +69,7 @@ namespace {
 
 /// Where the body's ends are in a pose.
 struct Ends {
-    glm::dvec3 hips, head, tops, feet;  ///< tops: between the hip joints
+    glm::dvec3 head, tops, feet;  ///< tops: between the hip joints, where hips may be anywhere in the pelvis
 };
 
 std::optional<Ends> ends_of(const RestFrames& pose, const Humanoid& bones) {
@@ -81,7 +81,7 @@ std::optional<Ends> ends_of(const RestFrames& pose, const Humanoid& bones) {
     const glm::dvec3 right = foot_of(pose, bones, Bone::right_lower_leg, Bone::right_foot);
     const glm::dvec3 tops =
         0.5 * (pose.position(bones[Bone::left_upper_leg]) + pose.position(bones[Bone::right_upper_leg]));
-    return Ends{pose.position(bones[Bone::hips]), pose.position(bones[Bone::head]), tops, 0.5 * (left + right)};
+    return Ends{pose.position(bones[Bone::head]), tops, 0.5 * (left + right)};
 }
 
 }  // namespace
@@ -89,10 +89,10 @@ std::optional<Ends> ends_of(const RestFrames& pose, const Humanoid& bones) {
 std::optional<Standing> judge_stand(const RestFrames& pose, const Humanoid& bones, const glm::dvec3& up) {
     const std::optional<Ends> ends = ends_of(pose, bones);
     if (!ends) return std::nullopt;
-    const double size = glm::distance(ends->head, ends->hips) + glm::distance(ends->tops, ends->feet);
+    const double size = glm::distance(ends->head, ends->tops) + glm::distance(ends->tops, ends->feet);
     if (!std::isfinite(size) || !(size > 0.0)) return std::nullopt;
     Standing standing;
-    standing.lean = angle_between(ends->head - ends->hips, up);
+    standing.lean = angle_between(ends->head - ends->tops, up);
     standing.legs = angle_between(ends->tops - ends->feet, up);
     const double on_left = lowest_of_leg(pose, bones, Bone::left_lower_leg, Bone::left_foot, Bone::left_toes, up);
     const double on_right = lowest_of_leg(pose, bones, Bone::right_lower_leg, Bone::right_foot, Bone::right_toes, up);
@@ -242,10 +242,10 @@ void visit_frames(const Scene& scene, Visit visit) {
     }
 }
 
-/// The body's own up: from hips to head, and from the feet to the hip joints.
+/// The body's own up: from the hip joints to the head, and from the feet to the hip joints.
 std::optional<glm::dvec3> own_up(const RestFrames& pose, const Humanoid& bones) {
     const std::optional<Ends> ends = ends_of(pose, bones);
-    const auto trunk = ends ? unit(ends->head - ends->hips) : std::nullopt;
+    const auto trunk = ends ? unit(ends->head - ends->tops) : std::nullopt;
     const auto legs = ends ? unit(ends->tops - ends->feet) : std::nullopt;
     return trunk && legs ? unit(*trunk + *legs) : std::nullopt;
 }

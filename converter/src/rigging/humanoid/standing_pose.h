@@ -18,7 +18,7 @@ namespace bendy::converter {
 
 /// How well a human stands in a pose, about an axis that points up.
 struct Standing {
-    double lean = 180.0;   ///< degrees from up to the line from hips to head
+    double lean = 180.0;   ///< degrees from up to the line from the hip joints to the head
     double legs = 180.0;   ///< degrees from up to the line from the feet to the hip joints
     double knees = 180.0;  ///< degrees by which the more bent knee is off straight
     double feet = 1.0;     ///< how far one foot's lowest joint is above the other's, as a share of the height
