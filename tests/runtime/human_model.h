@@ -17,7 +17,8 @@ struct HumanSpec {
     double facing = 0.0;     ///< turned about the vertical
     bool is_z_up = false;    ///< the skeleton below its root has Z up, and centimetres
     double arms_down = 0.0;  ///< 0: a T-pose
-    double collars_up = 0.0, feet_down = 0.0, bent = 0.0;  ///< of collarbones, soles and the trunk from the hips upwards
+    double collars_up = 0.0, feet_down = 0.0,
+           bent = 0.0;  ///< of collarbones, soles and the trunk from the hips upwards
     double thigh = 0.45, shin = 0.42;
     double hip_width = 0.2;
     std::uint32_t spine = 3;
@@ -96,7 +97,8 @@ private:
         const std::uint32_t foot =
             add(name + "Foot", human_.is_detached ? 0 : lower, {x, 0.08, 0}, of(side, Role::left_foot));
         const double down = human_.feet_down * M_PI / 180.0;
-        const glm::dvec3 sole(0, -0.06 * std::cos(down) - 0.13 * std::sin(down), 0.13 * std::cos(down) - 0.06 * std::sin(down));
+        const glm::dvec3 sole(0, -0.06 * std::cos(down) - 0.13 * std::sin(down),
+                              0.13 * std::cos(down) - 0.06 * std::sin(down));
         if (human_.has_toes) add(name + "Toes", foot, glm::dvec3(x, 0.08, 0) + sole, of(side, Role::left_toes));
         if (human_.is_detached) return;
         ChainRecord leg;

@@ -117,8 +117,9 @@ TEST(Retarget, AnArmThatHangsAtRestTurnsAboutItsAxisAsOneThatIsStretchedOut) {
 
 TEST(Retarget, BonesOfAnOddRestPoseHaveTheSourcesDirections) {
     const std::vector<std::pair<std::string, std::string>> kTrunk{
-        {"spine0", "spine1"},      {"spine1", "spine2"},       {"spine2", "neck"},       {"neck", "head"},
-        {"leftShoulder", "leftArm"}, {"rightShoulder", "rightArm"}, {"leftFoot", "leftToes"}, {"rightFoot", "rightToes"}};
+        {"spine0", "spine1"},     {"spine1", "spine2"},        {"spine2", "neck"},
+        {"neck", "head"},         {"leftShoulder", "leftArm"}, {"rightShoulder", "rightArm"},
+        {"leftFoot", "leftToes"}, {"rightFoot", "rightToes"}};
     Human plain(HumanSpec{.axes = 2});
     for (const HumanSpec& spec : {HumanSpec{.collars_up = 90.0}, HumanSpec{.feet_down = 55.0}, HumanSpec{.bent = 40.0},
                                   HumanSpec{.facing = 90.0, .collars_up = 60.0, .feet_down = 60.0, .bent = 35.0}}) {
@@ -172,7 +173,8 @@ TEST(Retarget, RotationsOfTheSameRigMeanTheSameHoweverItRests) {
             from.pose_at_random(seed, 0.4);
             RetargetState state;
             ASSERT_TRUE(retarget(to.pose(), retargeted, from.pose(), state));
-            for (const char* name : {"hips", "spine1", "head", "leftShoulder", "rightHand", "leftMiddle2", "rightFoot", "leftToes"}) {
+            for (const char* name :
+                 {"hips", "spine1", "head", "leftShoulder", "rightHand", "leftMiddle2", "rightFoot", "leftToes"}) {
                 EXPECT_LT(glm::length(from.place(name) - to.place(name)), 2e-5) << name;
                 const glm::dquat wanted(from.pose().local(from.joint(name)).rotation);
                 EXPECT_LT(angle_of(wanted, glm::dquat(to.pose().local(to.joint(name)).rotation)), 2e-5) << name;
@@ -183,8 +185,9 @@ TEST(Retarget, RotationsOfTheSameRigMeanTheSameHoweverItRests) {
 
 TEST(Retarget, WhatOneOfTheTwoDoesNotHaveGoesAlong) {
     const HumanSpec whole{.axes = 2};
-    for (const HumanSpec& half : {HumanSpec{.has_arms = false}, HumanSpec{.has_hands = false}, HumanSpec{.has_head = false},
-                                  HumanSpec{.has_arms = false, .has_head = false, .has_neck = false}}) {
+    for (const HumanSpec& half :
+         {HumanSpec{.has_arms = false}, HumanSpec{.has_hands = false}, HumanSpec{.has_head = false},
+          HumanSpec{.has_arms = false, .has_head = false, .has_neck = false}}) {
         for (const auto& [from, to] : {std::pair(whole, half), std::pair(half, whole)}) {
             Human source(from), target(to);
             Retarget retargeted = made(source, target);
@@ -194,9 +197,11 @@ TEST(Retarget, WhatOneOfTheTwoDoesNotHaveGoesAlong) {
                 ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
                 for (const char* side : {"left", "right"}) {
                     const std::string s = side;
-                    EXPECT_LT(glm::length(source.way(s + "UpLeg", s + "Leg") - target.way(s + "UpLeg", s + "Leg")), 0.05);
+                    EXPECT_LT(glm::length(source.way(s + "UpLeg", s + "Leg") - target.way(s + "UpLeg", s + "Leg")),
+                              0.05);
                     if (!half.has_arms) continue;
-                    EXPECT_LT(glm::length(source.way(s + "Arm", s + "ForeArm") - target.way(s + "Arm", s + "ForeArm")), 2e-5);
+                    EXPECT_LT(glm::length(source.way(s + "Arm", s + "ForeArm") - target.way(s + "Arm", s + "ForeArm")),
+                              2e-5);
                 }
                 EXPECT_LT(angle_of(source.turn("spine2"), target.turn("spine2")), 2e-5);
                 if (from.has_arms || !to.has_arms) continue;

@@ -13,8 +13,9 @@
 namespace bendy {
 namespace {
 
-constexpr Role kNeeded[] = {Role::hips,           Role::left_upper_leg,  Role::left_lower_leg, Role::left_foot,
-                            Role::right_upper_leg, Role::right_lower_leg, Role::right_foot};
+constexpr Role kNeeded[] = {Role::hips,      Role::left_upper_leg,  Role::left_lower_leg,
+                            Role::left_foot, Role::right_upper_leg, Role::right_lower_leg,
+                            Role::right_foot};
 
 constexpr std::array kLegs{Role::left_hind_leg, Role::right_hind_leg, Role::left_front_leg, Role::right_front_leg};
 constexpr std::size_t kFewest = 3;                // joints of a leg

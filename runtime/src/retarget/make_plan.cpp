@@ -209,9 +209,8 @@ private:
         std::vector<std::uint32_t> body{hips};
         const auto follow = [&](std::uint32_t carrier, std::initializer_list<Role> roles) {
             for (const std::uint32_t joint : target_.joints(roles)) {
-                const bool is_carried = std::any_of(body.begin(), body.end(), [&](std::uint32_t one) {
-                    return links_between(one, joint) != 0;
-                });
+                const bool is_carried = std::any_of(body.begin(), body.end(),
+                                                    [&](std::uint32_t one) { return links_between(one, joint) != 0; });
                 if (!is_carried) add_detached(carrier, joint);
                 body.push_back(joint);
                 carrier = joint;

@@ -71,10 +71,11 @@ std::vector<JointTransform> locals_of_same_rig(const Model& source, const Model&
         if (joint != hips && !are_near(from.rest.translation, to.rest.translation)) return {};
         locals[joint] = others[other];
     }
-    const bool have_same_roles = std::equal(
-        source.roles().begin(), source.roles().end(), target.roles().begin(), [&](const JointRole& a, const JointRole& b) {
-            return names.joints()[a.joint] == b.joint && a.role == b.role && a.place == b.place;
-        });
+    const bool have_same_roles =
+        std::equal(source.roles().begin(), source.roles().end(), target.roles().begin(),
+                   [&](const JointRole& a, const JointRole& b) {
+                       return names.joints()[a.joint] == b.joint && a.role == b.role && a.place == b.place;
+                   });
     return have_same_roles ? locals : std::vector<JointTransform>();
 }
 

@@ -261,7 +261,8 @@ TEST(Animal, NamesOfHumanLegsMakeNoHumanOfSix) {
     HumanoidGltf beetle = make_insect(3, 0.0);
     for (const char* side : {"left", "right"}) {
         const std::string mark = std::string(side) == "left" ? ".L" : ".R";
-        for (const auto& [number, which] : {std::pair("1", "front"), std::pair("2", "middle"), std::pair("3", "rear")}) {
+        for (const auto& [number, which] :
+             {std::pair("1", "front"), std::pair("2", "middle"), std::pair("3", "rear")}) {
             beetle.names[std::string(side) + number + "Leg1"] = std::string(which) + "_upper_leg" + mark;
             beetle.names[std::string(side) + number + "Leg2"] = std::string(which) + "_lower_leg" + mark;
             beetle.names[std::string(side) + number + "Leg3"] = std::string(which) + "_foot" + mark;

@@ -389,7 +389,8 @@ TEST(FindRoles, PartsOfTheBodyMayHangOnControlsBesideTheSpine) {
     human.bones.insert(human.bones.begin(), {"upper_ctrl", "", {0, 1.3, 0}});
     for (const char* side : {"left", "right"}) {
         human[std::string(side) + "UpperArm"].parent = "upper_ctrl";
-        std::erase_if(human.bones, [&](const HumanoidGltf::Bone& bone) { return bone.name == std::string(side) + "Shoulder"; });
+        std::erase_if(human.bones,
+                      [&](const HumanoidGltf::Bone& bone) { return bone.name == std::string(side) + "Shoulder"; });
     }
     Roles roles = roles_of(human);
     EXPECT_EQ(roles.at("left_upper_arm"), "leftUpperArm");

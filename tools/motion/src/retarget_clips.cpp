@@ -315,8 +315,9 @@ private:
 
     /// Joints of the target's arms and head that nothing moves.
     [[nodiscard]] std::vector<std::size_t> missing_there() const {
-        constexpr std::array kParts{Role::head,           Role::left_upper_arm,  Role::left_lower_arm, Role::left_hand,
-                                    Role::right_upper_arm, Role::right_lower_arm, Role::right_hand};
+        constexpr std::array kParts{Role::head,      Role::left_upper_arm,  Role::left_lower_arm,
+                                    Role::left_hand, Role::right_upper_arm, Role::right_lower_arm,
+                                    Role::right_hand};
         std::vector<std::size_t> still;
         for (const JointRole& role : target_.roles()) {
             const bool counts = std::find(kParts.begin(), kParts.end(), static_cast<Role>(role.role)) != kParts.end();

@@ -450,7 +450,7 @@ std::optional<Animal> find_animal(const Scene& scene, const RestFrames& rest, co
 }
 
 std::vector<Chain> make_animal_chains(const Scene& scene, const RestFrames& rest, const Animal& found,
-                                         std::uint8_t flags) {
+                                      std::uint8_t flags) {
     constexpr std::array<const char*, kFourLegs> kLegs{"LeftFrontLeg", "RightFrontLeg", "LeftHindLeg", "RightHindLeg"};
     const auto name_of = [&](std::size_t leg) {
         if (found.legs.size() == kFourLegs) return std::string(kLegs[leg]);
@@ -460,8 +460,8 @@ std::vector<Chain> make_animal_chains(const Scene& scene, const RestFrames& rest
     for (std::size_t leg = 0; leg < found.legs.size(); ++leg) {
         const std::vector<std::uint32_t>& joints = found.legs[leg];
         const bool is_two_bone = joints.size() == 3;
-        Chain chain =
-            make_chain(name_of(leg), joints.front(), joints.back(), is_two_bone ? Solver::two_bone : Solver::any, flags);
+        Chain chain = make_chain(name_of(leg), joints.front(), joints.back(),
+                                 is_two_bone ? Solver::two_bone : Solver::any, flags);
         if (is_two_bone) {
             const auto bend = bend_of(rest, joints[0], joints[1], rest.position(joints[2]));
             const auto pole = bend ? rest.to_space_of(scene.joints[joints[0]].parent, *bend) : std::nullopt;

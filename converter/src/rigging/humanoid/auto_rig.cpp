@@ -329,8 +329,7 @@ void rig_human(Scene& scene, const RestFrames& rest, const ClipRotations& clips,
     for (Chain& chain : chains) bends.turn_pole(chain);
     for (const std::size_t chain : add_new_chains(scene, std::move(chains)))
         report.propose(proposal_of(scene, scene.chains[chain], bends.of(scene.chains[chain]), stance));
-    if (found.has_front_legs)
-        return report.warn("auto-rig: front legs are not a human's arms, no limits proposed");
+    if (found.has_front_legs) return report.warn("auto-rig: front legs are not a human's arms, no limits proposed");
     if (!posture->is_upright)
         return report.warn("auto-rig: the spine does not go up from the legs as a human's, no limits proposed");
     add_limits(scene, rest, clips, find_anatomy(scene, rest, found, stance), stance.left, "a human's", claimed, report);

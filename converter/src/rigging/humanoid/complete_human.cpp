@@ -43,7 +43,8 @@ private:
     /// Robots may have no arms at all; one arm is no human's, and two legs with wings are a bird's.
     [[nodiscard]] bool has_limbs() const {
         bool has_any_arm = false;
-        for (const Role bone : {Role::left_upper_arm, Role::left_lower_arm, Role::right_upper_arm, Role::right_lower_arm})
+        for (const Role bone :
+             {Role::left_upper_arm, Role::left_lower_arm, Role::right_upper_arm, Role::right_lower_arm})
             has_any_arm = has_any_arm || bones_.has(bone);
         if (!has_any_arm && !find_wing(scene_, BodySide::left).empty()) return false;
         for (const Limb limb : {Limb::left_arm, Limb::right_arm, Limb::left_leg, Limb::right_leg}) {
@@ -120,9 +121,9 @@ private:
         if (arms == bones_[Role::hips]) return column.size();
         const auto chest = std::find(column.begin(), column.end(), arms);
         if (chest != column.end()) return static_cast<std::size_t>(chest - column.begin());
-        const bool hang_elsewhere = arms == kNone || rest_.is_below(bones_[Role::hips], arms) ||
-                                    (!rest_.is_below(arms, bones_[Role::hips]) && !column.empty() &&
-                                     !rest_.is_below(arms, column.front()));
+        const bool hang_elsewhere =
+            arms == kNone || rest_.is_below(bones_[Role::hips], arms) ||
+            (!rest_.is_below(arms, bones_[Role::hips]) && !column.empty() && !rest_.is_below(arms, column.front()));
         const glm::dvec3 hips = rest_.position(bones_[Role::hips]);
         const glm::dvec3 trunk = rest_.position(bones_[Role::head]) - hips;
         const glm::dvec3 middle = 0.5 * (rest_.position(left) + rest_.position(right)) - hips;

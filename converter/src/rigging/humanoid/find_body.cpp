@@ -70,7 +70,8 @@ NamedHumanoid find_the_rest(const Scene& scene, const RestFrames& rest, const Cl
     return has_all_limbs(among_all.bones) ? among_all : named;
 }
 
-/// Whether the names give both arms and legs of a body whose spine goes up from the legs. Front legs may be an animal's.
+/// Whether the names give both arms and legs of a body whose spine goes up from the legs. Front legs may be an
+/// animal's.
 bool is_upright_human(const RestFrames& rest, const NamedHumanoid& named) {
     if (!has_all_limbs(named.bones) || named.has_front_legs) return false;
     const std::optional<Posture> posture = measure_posture(rest, named);

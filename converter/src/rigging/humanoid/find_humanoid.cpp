@@ -173,7 +173,8 @@ private:
         return side == BodySide::left ? left : mirrored(left);
     }
 
-    /// The joint with that name below the limb's lower bone, or else its branch that stands for the hand, or its farthest child.
+    /// The joint with that name below the limb's lower bone, or else its branch that stands for the hand, or its
+    /// farthest child.
     std::uint32_t find_end(BodyPart part, BodySide side, std::uint32_t lower, std::size_t loose) {
         const std::uint32_t end = pick(part, side, lower);
         if (end != kNone) return end;

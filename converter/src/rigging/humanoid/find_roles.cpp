@@ -77,8 +77,8 @@ Joints joints_of_leg(const Scene& scene, const Animal& animal, std::size_t leg, 
 }
 
 void add_animal(const Scene& scene, const RestFrames& rest, const Animal& animal, RoleList& roles) {
-    const std::uint32_t hips = common_ancestor(
-        scene, rest, {animal.legs[Animal::left_hind].front(), animal.legs[Animal::right_hind].front()});
+    const std::uint32_t hips =
+        common_ancestor(scene, rest, {animal.legs[Animal::left_hind].front(), animal.legs[Animal::right_hind].front()});
     const std::vector<bool> moves = find_moving_joints(scene);
     for (std::size_t leg = 0; leg < animal.legs.size(); ++leg)
         roles.add_chain(kLegRoles[leg / 2][leg % 2], joints_of_leg(scene, animal, leg, moves));

@@ -23,8 +23,8 @@ struct MirroredChains {
     std::size_t splits_at = 0;         ///< index of the joint that branches, as a hand does into fingers; 0: none
 };
 
-/// All pairs of limbs with a common parent, or below two joints in the same place that have one, that mirror each other and have at least three joints.
-/// \param chosen  by joint: only these are considered
+/// All pairs of limbs with a common parent, or below two joints in the same place that have one, that mirror each other
+/// and have at least three joints. \param chosen  by joint: only these are considered
 std::vector<MirroredChains> find_mirrored_chains(const Scene& scene, const RestFrames& rest,
                                                  const std::vector<bool>& chosen);
 

@@ -144,7 +144,8 @@ std::vector<std::optional<BoundJoint>> find_bound(const Scene& scene) {
 }
 
 glm::dmat4 matrix_of(const Transform& local) {
-    glm::dmat3 axes = glm::mat3_cast(to_rotation({local.rotation.x, local.rotation.y, local.rotation.z, local.rotation.w}));
+    glm::dmat3 axes =
+        glm::mat3_cast(to_rotation({local.rotation.x, local.rotation.y, local.rotation.z, local.rotation.w}));
     for (int axis = 0; axis < 3; ++axis) axes[axis] *= double{local.scale[axis]};
     glm::dmat4 matrix(axes);
     matrix[3] = glm::dvec4(glm::dvec3(local.translation), 1.0);
