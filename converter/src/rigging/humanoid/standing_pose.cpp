@@ -408,7 +408,7 @@ std::optional<CandidatePose> find_stand(const Scene& scene, const Humanoid& bone
     std::vector<CandidatePose> poses = find_bind_poses(scene);
     poses.push_back({StandingEvidence::rest_pose, rest_of(scene)});
     for (CandidatePose& candidate : poses) {
-        const auto pose = turn_upright(scene, bones, up, std::move(candidate));
+        auto pose = turn_upright(scene, bones, up, std::move(candidate));
         if (pose && does_stand(RestFrames(scene, pose->locals), bones, up)) return pose;
     }
     return find_standing_frame(scene, bones, up);
