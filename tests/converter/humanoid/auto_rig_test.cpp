@@ -532,6 +532,20 @@ TEST(AutoRig, ArmsThatEndInFingersEndInTheSameOne) {
     EXPECT_EQ(end_of("RightArm"), "rightMiddle1");
 }
 
+TEST(AutoRig, ABodyThatIsFoundAsItIsBoundGetsChainsAndNoLimits) {
+    Scene scene = *HumanoidGltf().build().import();
+    bind_at_rest(scene);
+    for (Joint& joint : scene.joints) {  // all bones along one axis
+        joint.rest.translation = {glm::length(joint.rest.translation), 0.0f, 0.0f};
+        joint.rest.rotation = {0.0f, 0.0f, 0.0f, 1.0f};
+    }
+    const Rigged rigged = rig(scene);
+    for (const char* name : {"LeftArm", "RightArm", "LeftLeg", "RightLeg", "Spine", "Head"})
+        EXPECT_NE(find_chain(rigged.scene, name), nullptr) << name;
+    EXPECT_EQ(rigged.limited(), 0u);
+    EXPECT_EQ(warned(rigged.report, "which is not that of a body here"), 1u);
+}
+
 TEST(AutoRig, AControlWithABonesNameIsNotTheBone) {
     HumanoidGltf character;
     character.add("HEAD", "", {0, 2, 0});  // nearer the root than the head, and moves nothing

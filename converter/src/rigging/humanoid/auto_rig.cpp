@@ -306,9 +306,12 @@ void rig_animal(Scene& scene, const RestFrames& rest, const ClipRotations& clips
     add_limits(scene, rest, clips, find_anatomy(rest, animal), animal.stance.left, "an animal's", claimed, report);
 }
 
-void rig_human(Scene& scene, const RestFrames& rest, const ClipRotations& clips, const NamedHumanoid& found,
+/// Chains are as in the pose in which the body was found, limits about the rest pose.
+void rig_human(Scene& scene, const RestFrames& rest, const ClipRotations& clips, const FoundBody& body,
                const std::vector<bool>& claimed, Report& report) {
-    const std::optional<Posture> posture = measure_posture(rest, found);
+    const NamedHumanoid& found = body.human;
+    const RestFrames pose = body.frames(scene);
+    const std::optional<Posture> posture = measure_posture(pose, found);
     if (!posture) {
         return report.warn(
             "auto-rig: neither the joints' names nor the skeleton's shape say where the limbs of a human or of an "
@@ -323,16 +326,20 @@ void rig_human(Scene& scene, const RestFrames& rest, const ClipRotations& clips,
             "right below are the character's own");
     }
     Report unheard;  // discarded: warnings about missing limbs
-    std::vector<Chain> chains = make_limb_chains(scene, rest, found.bones, stance, kProposed, {}, unheard);
-    for (Chain& chain : make_loose_chains(scene, rest, found, stance)) chains.push_back(std::move(chain));
-    const Bends bends(scene, rest, clips, found, stance);
+    std::vector<Chain> chains = make_limb_chains(scene, pose, found.bones, stance, kProposed, {}, unheard);
+    for (Chain& chain : make_loose_chains(scene, pose, found, stance)) chains.push_back(std::move(chain));
+    const Bends bends(scene, pose, clips, found, stance);
     for (Chain& chain : chains) bends.turn_pole(chain);
     for (const std::size_t chain : add_new_chains(scene, std::move(chains)))
         report.propose(proposal_of(scene, scene.chains[chain], bends.of(scene.chains[chain]), stance));
     if (found.has_front_legs) return report.warn("auto-rig: front legs are not a human's arms, no limits proposed");
     if (!posture->is_upright)
         return report.warn("auto-rig: the spine does not go up from the legs as a human's, no limits proposed");
-    add_limits(scene, rest, clips, find_anatomy(scene, rest, found, stance), stance.left, "a human's", claimed, report);
+    const std::optional<Posture> resting = measure_posture(rest, found);
+    if (!resting || !resting->is_upright || !resting->has_feet_forward)
+        return report.warn("auto-rig: limits are about the rest pose, which is not that of a body here, none proposed");
+    add_limits(scene, rest, clips, find_anatomy(scene, rest, found, resting->stance), resting->stance.left, "a human's",
+               claimed, report);
 }
 
 }  // namespace
@@ -342,13 +349,13 @@ void auto_rig(Scene& scene, const std::vector<bool>& claimed, Report& report) {
     const ClipRotations clips(scene);
     Report unheard;  // discarded: reported when the extension's own chains were made
     if (const std::optional<VrmHumanoid> vrm = read_vrm_humanoid(scene, unheard)) {
-        NamedHumanoid found;
-        found.bones = vrm->bones;
-        return rig_human(scene, rest, clips, found, claimed, report);
+        FoundBody body;
+        body.human.bones = vrm->bones;
+        return rig_human(scene, rest, clips, body, claimed, report);
     }
     const FoundBody body = find_body(scene, clips, std::vector<bool>(scene.joints.size(), true));
     if (body.animal) return rig_animal(scene, rest, clips, body, claimed, report);
-    rig_human(scene, rest, clips, body.human, claimed, report);
+    rig_human(scene, rest, clips, body, claimed, report);
 }
 
 void add_vrm_chains(Scene& scene, Report& report) {
