@@ -376,9 +376,9 @@ class Retargeting(EditCase):
         self.assertIn("the source does not say what its joints are", said)
         self.assertIn('{"bendy_rig": 1, "roles": {"hips": "NAME"}}', said)
         self.assertIn("the target does not say", self.failed("edit", other, "-o", "x.bendy", "--retarget", source))
-        headless = self.edit(source, "--role", "head=", "--role", "left_foot=", name="headless.bendy")
-        said = self.failed("edit", source, "-o", "x.bendy", "--retarget", headless)
-        self.assertIn("has no joint for head, left_foot", said)
+        footless = self.edit(source, "--role", "head=", "--role", "left_foot=", name="footless.bendy")
+        said = self.failed("edit", source, "-o", "x.bendy", "--retarget", footless)
+        self.assertIn("has no joint for left_foot:", said)
         self.assertFalse((self.folder / "x.bendy").exists())
 
     def test_damaged_and_missing_files_are_refused(self):

@@ -377,6 +377,19 @@ TEST(RetargetClips, ALongClipOfFewKeysTakesFewSamples) {
     for (const TrackView& track : made->clip("Long")->tracks) EXPECT_LT(track.keys, 1200u);
 }
 
+TEST(RetargetClips, WhatTheSourceDoesNotHaveIsNamed) {
+    const HumanModel human(HumanSpec{.has_hands = false, .has_head = false});
+    test::ModelSpec other = HumanModel(HumanSpec{.axes = 4}).spec;
+    for (test::JointSpec& joint : other.joints) joint.name = "own " + joint.name;
+    edit::Log log;
+    const Buffer source = file_of(human, {swinging(human, "Swing")});
+    EXPECT_EQ(test::Owned(retargeted(counted(other), source, {}, log))->clips().size(), 1u);
+    ASSERT_EQ(log.warnings.size(), 1u);
+    EXPECT_EQ(log.warnings[0],
+              "the source has no joints for 3 joints of head and arms here, which go along as they rest: \"own head\", "
+              "\"own leftHand\" and \"own rightHand\"");
+}
+
 TEST(RetargetClips, ClipsWithoutACounterpartAreLeftOut) {
     const HumanModel human(HumanSpec{});
     ClipSpec sword{"Sword"};
