@@ -187,7 +187,7 @@ std::vector<CandidatePose> find_bind_poses(const Scene& scene) {
     for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
         const std::uint32_t parent = scene.joints[joint].parent;
         const Rotation above = parent == kNone ? turn : turns[parent];
-        const glm::dmat4& space = parent == kNone ? above_root : places[parent];
+        const glm::dmat4 space = parent == kNone ? above_root : places[parent];  // a copy: places grow
         Transform& local = pose.locals[joint];
         const Rotation own = to_rotation({local.rotation.x, local.rotation.y, local.rotation.z, local.rotation.w});
         turns.push_back(bound[joint] ? bound[joint]->turn : glm::normalize(above * own));
