@@ -386,7 +386,7 @@ TEST(RetargetClips, WhatTheSourceDoesNotHaveIsNamed) {
     EXPECT_EQ(test::Owned(retargeted(counted(other), source, {}, log))->clips().size(), 1u);
     ASSERT_EQ(log.warnings.size(), 1u);
     EXPECT_EQ(log.warnings[0],
-              "the source has no joints for 3 joints of head and arms here, which go along as they rest: \"own head\", "
+              "the source has no joints for 3 joints of the head and arms here, which keep their rest: \"own head\", "
               "\"own leftHand\" and \"own rightHand\"");
 }
 

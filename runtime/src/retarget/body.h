@@ -27,7 +27,7 @@ struct Limb {
     bool is_leg = true;
 
     [[nodiscard]] bool is_whole() const { return joints.size() > foot; }
-    // Of a whole one:
+    // Only if is_whole():
     [[nodiscard]] std::uint32_t upper() const { return joints.front(); }
     [[nodiscard]] std::uint32_t foot_joint() const { return joints[foot]; }
     /// kNone if nothing is below the foot.

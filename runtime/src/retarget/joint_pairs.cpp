@@ -129,7 +129,7 @@ public:
         to.push_back(to_end);
         const auto way_of_source = [&](std::uint32_t joint) -> glm::dvec3 {
             const auto at = std::find(from.begin(), from.end(), joint);
-            // What carries the column points elsewhere.
+            // A joint that is not in the column carries it: the column's first bone stands for it.
             const auto first = at == from.end() ? from.begin() : at + 1 == from.end() ? at - 1 : at;
             return source_.place(*(first + 1)) - source_.place(*first);
         };

@@ -19,7 +19,7 @@ bool are_near(const glm::vec3& a, const glm::vec3& b) {
     return glm::length(a - b) <= kSame * std::max(glm::length(a), glm::length(b)) + 1e-6f;
 }
 
-/// Returns the numbers of the joints that have a role, or carry one that has; the hips first.
+/// Returns by joint whether it has a role, or one of its descendants does.
 std::vector<bool> list_body(const Model& model) {
     std::vector<bool> is_body(model.joints().size());
     for (const JointRole& role : model.roles()) is_body[role.joint] = true;

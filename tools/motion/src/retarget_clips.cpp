@@ -289,7 +289,7 @@ private:
         }
         if (const auto still = missing_there(); !still.empty()) {
             log_.warnings.push_back("the source has no joints for " + counted(still.size(), "joint") +
-                                    " of head and arms here, which go along as they rest: " +
+                                    " of the head and arms here, which keep their rest: " +
                                     list_names(names_of(target_.joints()), still));
         }
         if (const auto stretched = numbers_in(stretched_); !stretched.empty()) {

@@ -258,12 +258,12 @@ private:
     std::array<std::optional<ProposedBend>, kLimbs> bends_;
 };
 
-constexpr double kNotItsLimit = 30.0;  // degrees by which clips leave what is no limit of this joint
+constexpr double kFarthestBeyond = 30.0;  // degrees; a limit that clips leave by more is not proposed
 
-/// What clips do to a joint that leaves its limit.
+/// Says which clip turns the joint beyond its proposed limit, and how far.
 std::string beyond_of(const Scene& scene, const ProposedConstraint& proposed) {
-    const std::string clip = proposed.farthest_clip ? quote(scene.clips[*proposed.farthest_clip].name) : "?";
-    return "clip " + clip + " turns the joint by " + std::to_string(std::lround(proposed.beyond)) +
+    if (!proposed.farthest_clip) return "";
+    return "clip " + quote(scene.clips[*proposed.farthest_clip].name) + " turns the joint by " + std::to_string(std::lround(proposed.beyond)) +
            " degrees more than such a joint can turn";
 }
 
@@ -277,7 +277,7 @@ void add_limits(Scene& scene, const RestFrames& rest, const ClipRotations& clips
         if (!joint.constraints.empty() || (!claimed.empty() && claimed[proposed.anatomy.joint])) continue;
         const std::string place = name_of(scene, proposed.anatomy.joint);
         const std::string turned = beyond_of(scene, proposed);
-        if (proposed.beyond > kNotItsLimit) {
+        if (proposed.beyond > kFarthestBeyond) {
             report.warn("auto-rig: no limit proposed, since " + turned, place);
             continue;
         }

@@ -40,7 +40,7 @@ private:
 
     [[nodiscard]] bool has_arms() const { return bones_.has(Role::left_upper_arm); }
 
-    /// Robots may have no arms at all; one arm is no human's, and two legs with wings are a bird's.
+    /// A robot may lack both arms, but a body with one arm, or with two legs and wings, is not a human.
     [[nodiscard]] bool has_limbs() const {
         bool has_any_arm = false;
         for (const Role bone :
