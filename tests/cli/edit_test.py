@@ -376,10 +376,29 @@ class Retargeting(EditCase):
         self.assertIn("the source does not say what its joints are", said)
         self.assertIn('{"bendy_rig": 1, "roles": {"hips": "NAME"}}', said)
         self.assertIn("the target does not say", self.failed("edit", other, "-o", "x.bendy", "--retarget", source))
-        footless = self.edit(source, "--role", "head=", "--role", "left_foot=", name="footless.bendy")
-        said = self.failed("edit", source, "-o", "x.bendy", "--retarget", footless)
-        self.assertIn("has no joint for left_foot:", said)
         self.assertFalse((self.folder / "x.bendy").exists())
+
+    def test_strict_writes_nothing_if_there_is_a_warning(self):
+        source = self.made("mannequin")
+        headless = self.edit(source, "--strip", "clips", "--role", "head=", name="headless.bendy")
+        result = self.bendy("edit", headless, "-o", "x.bendy", "--retarget", source, "--strict")
+        self.assertEqual((result.returncode, result.stdout), (1, b""))
+        warning, error = result.stderr.decode().splitlines()
+        self.assertTrue(warning.endswith('nothing here follows 1 joint: "mixamorig:Head"'), warning)
+        self.assertTrue(error.endswith("there are warnings, and --strict: nothing is written"), error)
+        self.assertFalse((self.folder / "x.bendy").exists())
+        self.edit(self.edit(source, "--strip", "clips", name="bare.bendy"), "--retarget", source, "--strict")
+
+    def test_a_json_report_has_what_was_done_and_the_warnings(self):
+        source = self.made("mannequin")
+        headless = self.edit(source, "--strip", "clips", "--role", "head=", name="headless.bendy")
+        out = self.edit(headless, "--retarget", source, "--json")
+        report = json.loads(self.told)
+        self.assertEqual((report["file"], report["bytes"]), ("edited.bendy", out.stat().st_size))
+        self.assertTrue(report["done"][1].startswith('retargeted clip "Idle": '), report)
+        self.assertTrue(report["warnings"][0].endswith('nothing here follows 1 joint: "mixamorig:Head"'), report)
+        self.assertEqual(self.warned, "")
+        self.assertEqual(self.bendy("edit", source, "-o", "-", "--strip", "clips", "--json").returncode, 2)
 
     def test_damaged_and_missing_files_are_refused(self):
         source = self.made("mannequin")

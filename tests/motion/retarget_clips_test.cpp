@@ -283,7 +283,10 @@ TEST(RetargetClips, AnimalsPlayTheClipsOfOtherAnimals) {
                                        .tail = 2});
     edit::Log log;
     const test::Owned planted(retargeted(counted(horse.spec), source, {}, log));
-    EXPECT_TRUE(log.warnings.empty()) << log.warnings.front();
+    ASSERT_EQ(log.warnings.size(), 2u);
+    EXPECT_TRUE(log.warnings[0].starts_with("feet or hands miss their places in 1 clip, most ")) << log.warnings[0];
+    EXPECT_TRUE(log.warnings[1].starts_with("the hips are lowered, so that feet reach the ground, in 1 clip, most by "))
+        << log.warnings[1];
     ASSERT_EQ(planted->clip("Swing")->curves.size(), ContactWeights().size());
     EXPECT_EQ(planted->clip("Swing")->curves[4].name, "left_front_heel_contact");
 
@@ -300,11 +303,6 @@ TEST(RetargetClips, SaysWhatIsNotRetargeted) {
     const AnimalModel fox(AnimalSpec{});
     EXPECT_EQ(problem_of(counted(fox.spec), swinger()),
               "the source is a human and the target an animal on four legs: nothing is retargeted between them");
-    test::ModelSpec half = fox.spec;
-    half.more.back().payload.resize(8 * sizeof(RoleRecord));
-    const std::string missing = problem_of(counted(half), file_of(fox, {swinging(fox, "Swing")}));
-    EXPECT_TRUE(missing.starts_with("the target has too few joints for right_hind_leg: ")) << missing;
-    EXPECT_NE(missing.find("{\"right_hind_leg\": [\"NAME\", \"NAME\", \"NAME\"]}"), std::string::npos) << missing;
 }
 
 TEST(RetargetClips, OfTwoCharactersInAFileItSaysWhichIsTaken) {
@@ -377,6 +375,15 @@ TEST(RetargetClips, ALongClipOfFewKeysTakesFewSamples) {
     for (const TrackView& track : made->clip("Long")->tracks) EXPECT_LT(track.keys, 1200u);
 }
 
+TEST(RetargetClips, ABodyWithoutLegsFollowsWithTheRest) {
+    HumanModel human(HumanSpec{.axes = 4});
+    human.forget({Role::left_upper_leg, Role::left_lower_leg, Role::left_foot, Role::left_toes});
+    edit::Log log;
+    EXPECT_EQ(test::Owned(retargeted(counted(human.spec), swinger(), {}, log))->clips().size(), 1u);
+    ASSERT_EQ(log.warnings.size(), 1u);
+    EXPECT_TRUE(log.warnings[0].starts_with("nothing here follows 4 joints: ")) << log.warnings[0];
+}
+
 TEST(RetargetClips, WhatTheSourceDoesNotHaveIsNamed) {
     const HumanModel human(HumanSpec{.has_hands = false, .has_head = false});
     test::ModelSpec other = HumanModel(HumanSpec{.axes = 4}).spec;
@@ -386,8 +393,63 @@ TEST(RetargetClips, WhatTheSourceDoesNotHaveIsNamed) {
     EXPECT_EQ(test::Owned(retargeted(counted(other), source, {}, log))->clips().size(), 1u);
     ASSERT_EQ(log.warnings.size(), 1u);
     EXPECT_EQ(log.warnings[0],
-              "the source has no joints for 3 joints of the head and arms here, which keep their rest: \"own head\", "
+              "the source has no counterpart of 3 joints here, left at rest: \"own head\", "
               "\"own leftHand\" and \"own rightHand\"");
+}
+
+struct Turn {
+    const char* joint;
+    double degrees;
+    glm::dvec3 axis;  ///< of the joint
+};
+
+/// A clip in which joints with the axes of model space turn from rest within a second, and the hips rise.
+ClipSpec turning(const HumanModel& human, const std::vector<Turn>& turns, float raised = 0.0f) {
+    ClipSpec clip{"Turn"};
+    for (const Turn& turn : turns) {
+        const glm::quat q(glm::angleAxis(glm::radians(turn.degrees), turn.axis));
+        clip.tracks.push_back(
+            {TrackPath::rotation, human.joint(turn.joint), 4, {0, 1}, {0, 0, 0, 1, q.x, q.y, q.z, q.w}});
+    }
+    const std::uint32_t hips = human.joint("hips");
+    const auto& at = human.spec.joints[hips].rest.translation;
+    clip.tracks.push_back(
+        {TrackPath::translation, hips, 3, {0, 1}, {at[0], at[1], at[2], at[0], at[1] + raised, at[2]}});
+    return clip;
+}
+
+TEST(RetargetClips, BonesThatPointElsewhereThanTheSourcesAreNamedWithTheCause) {
+    const glm::dvec3 x(1, 0, 0), y(0, 1, 0);
+    const HumanModel human(HumanSpec{.axes = 0});
+    const auto warnings = [&](const HumanSpec& target, const ClipSpec& clip, const RetargetOptions& options = {}) {
+        edit::Log log;
+        (void)retargeted(counted(HumanModel(target).spec), file_of(human, {clip}), {"", options}, log);
+        log.warnings.resize(std::max<std::size_t>(1, log.warnings.size()));
+        return log.warnings;
+    };
+    EXPECT_EQ(warnings({.axes = 2}, turning(human, {{"leftForeArm", -60.0, y}})), std::vector<std::string>{""});
+
+    ConstraintRecord stiff;
+    stiff.model = static_cast<std::uint8_t>(ConstraintModel::largest_angle);
+    stiff.rotation_max[0] = static_cast<float>(glm::radians(10.0));
+    const HumanSpec robot{.axes = 0, .elbows = {stiff}};
+    EXPECT_EQ(warnings(robot, turning(human, {{"leftForeArm", -60.0, y}}))[0],
+              "limits turn bones far from the source's directions in 1 clip, most \"leftForeArm\" by 50 degrees in "
+              "\"Turn\" at 1 s; --ignore-constraints goes beyond them");
+
+    const HumanSpec hanging{.arms_down = 55.0, .axes = 3};
+    EXPECT_EQ(
+        warnings(hanging, turning(human, {}), {.rest_poses = RestPoses::alike})[0],
+        "bones point far from the source's directions in 1 clip, most \"leftForeArm\" by 55 degrees in \"Turn\" at "
+        "0 s; one of the two does not stand at rest or is built otherwise: say with --stand when it stands, or try "
+        "--rests-alike");
+
+    // Feet of the same length, and legs of less than half: on tiptoe its knees bend.
+    const ClipSpec tiptoe = turning(human, {{"leftFoot", 50.0, x}, {"rightFoot", 50.0, x}}, 0.078f);
+    const std::string bent = warnings({.thigh = 0.1, .shin = 0.3, .axes = 4}, tiptoe)[0];
+    EXPECT_TRUE(bent.starts_with("feet on the ground turn legs far from the source's directions in 1 clip, most "))
+        << bent;
+    EXPECT_TRUE(bent.ends_with("; --free-feet lets them go")) << bent;
 }
 
 TEST(RetargetClips, ClipsWithoutACounterpartAreLeftOut) {
@@ -417,11 +479,6 @@ TEST(RetargetClips, SaysWhatIsMissing) {
     const std::string nobody = problem_of(counted(HumanModel(HumanSpec{.has_roles = false}).spec), source);
     EXPECT_TRUE(nobody.starts_with("the target does not say what its joints are: ")) << nobody;
     EXPECT_NE(nobody.find("28 joints: \"root\", \"hips\", "), std::string::npos) << nobody;
-    test::ModelSpec half = HumanModel(HumanSpec{}).spec;
-    half.more.back().payload.resize(20 * sizeof(RoleRecord));
-    const std::string missing = problem_of(counted(half), source);
-    EXPECT_TRUE(missing.starts_with("the target has no joint for ")) << missing;
-    EXPECT_NE(missing.find("{\"bendy_rig\": 1, \"roles\": {\"left_foot\": \"NAME\"}}"), std::string::npos) << missing;
     EXPECT_NE(problem_of(human, Buffer(64)), "");
 }
 

@@ -7,6 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -42,6 +43,15 @@ public:
 
     [[nodiscard]] Buffer file() const { return build_file(spec); }
     [[nodiscard]] std::uint32_t joint(const std::string& name) const { return numbers_.at(name); }
+
+    /// Joints keep their places and lose these roles.
+    void forget(const std::vector<Role>& roles) {
+        std::erase_if(roles_, [&](const RoleRecord& one) {
+            return std::find(roles.begin(), roles.end(), static_cast<Role>(one.role)) != roles.end();
+        });
+        spec.more.pop_back();
+        store_roles();
+    }
 
     ModelSpec spec;
 

@@ -13,12 +13,7 @@
 namespace bendy {
 namespace {
 
-constexpr Role kNeeded[] = {Role::hips,      Role::left_upper_leg,  Role::left_lower_leg,
-                            Role::left_foot, Role::right_upper_leg, Role::right_lower_leg,
-                            Role::right_foot};
-
 constexpr std::array kLegs{Role::left_hind_leg, Role::right_hind_leg, Role::left_front_leg, Role::right_front_leg};
-constexpr std::size_t kFewest = 3;                // joints of a leg
 constexpr double kUpright = 0.82, kAhead = 0.94;  // 35 and 20 degrees
 constexpr auto kLimbRoles =
     static_cast<std::size_t>(Role::right_hand) - static_cast<std::size_t>(Role::left_upper_leg) + 1;
@@ -38,6 +33,13 @@ double distance(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::length(b - a);
 }
 
+constexpr double kLeastWay = 1e-3;                                        // of the body's size
+constexpr glm::dvec3 kModelUp{0.0, 1.0, 0.0}, kModelLeft{1.0, 0.0, 0.0};  // where a body does not say
+
+glm::dvec3 unit_or(const glm::dvec3& v, double least, const glm::dvec3& otherwise) {
+    return glm::length(v) > least ? glm::normalize(v) : otherwise;
+}
+
 std::span<const Role> leg_roles_of(BodyKind kind) {
     return std::span(kLegs).first(kind == BodyKind::human ? 0 : kind == BodyKind::two_legs ? 2 : 4);
 }
@@ -54,7 +56,9 @@ Limb divide_leg(const Body& body, const LegChains& standing, std::size_t leg) {
     Limb limb;
     limb.joints = standing.legs[leg];
     // A shoulder blade runs forward and the upper arm back, a pelvis back and the thigh forward.
-    constexpr double kSlanted = 0.3;  // of the bone's length
+    constexpr double kSlanted = 0.3;    // of the bone's length
+    constexpr std::size_t kFewest = 3;  // joints of a leg
+    if (limb.joints.size() < kFewest) return limb;
     const glm::dvec3 first = body.place(limb.joints[1]) - body.place(limb.joints[0]);
     const double ahead = glm::dot(first, standing.ahead) * (leg < 2 ? -1.0 : 1.0);
     if (limb.joints.size() > kFewest && ahead > kSlanted * glm::length(first)) {
@@ -118,19 +122,6 @@ std::vector<std::uint32_t> Body::chain(Role role) const {
     return joints;
 }
 
-std::vector<Role> Body::missing() const {
-    std::vector<Role> missing;
-    const std::span<const Role> needed(kNeeded);
-    for (const Role role : kind_ == BodyKind::human ? needed : needed.first(1)) {
-        if (joint(role) == kNone) missing.push_back(role);
-    }
-    if (kind_ == BodyKind::human && top() == joint(Role::hips)) missing.push_back(Role::head);
-    for (const Role role : leg_roles_of(kind_)) {
-        if (chain(role).size() < kFewest) missing.push_back(role);
-    }
-    return missing;
-}
-
 std::uint32_t Body::top() const {
     const std::vector<std::uint32_t> column =
         joints({Role::head, Role::neck, Role::upper_chest, Role::chest, Role::spine, Role::hips});
@@ -151,33 +142,39 @@ glm::dquat Body::space(std::uint32_t joint) const {
 }
 
 void Body::find_limbs() {
-    if (kind_ == BodyKind::human) {
-        limbs_.resize(4);
-        limbs_[0].joints = joints({Role::left_upper_leg, Role::left_lower_leg, Role::left_foot, Role::left_toes});
-        limbs_[1].joints = joints({Role::right_upper_leg, Role::right_lower_leg, Role::right_foot, Role::right_toes});
-        const auto arm = [&](std::initializer_list<Role> roles) {
-            std::vector<std::uint32_t> found;
-            for (const Role role : roles) {
-                if (joint(role) == kNone) break;
-                found.push_back(joint(role));
-            }
-            return found;
-        };
-        limbs_[2].joints = arm({Role::left_upper_arm, Role::left_lower_arm, Role::left_hand});
-        limbs_[3].joints = arm({Role::right_upper_arm, Role::right_lower_arm, Role::right_hand});
-        limbs_[2].is_leg = limbs_[3].is_leg = false;
-        return;
-    }
+    if (kind_ != BodyKind::human) return find_animal_limbs();
+    const auto limb = [&](bool is_leg, std::initializer_list<Role> roles) {
+        Limb& found = limbs_.emplace_back();
+        found.is_leg = is_leg;
+        for (const Role role : roles) {
+            if (joint(role) == kNone) break;
+            found.joints.push_back(joint(role));
+        }
+    };
+    limb(true, {Role::left_upper_leg, Role::left_lower_leg, Role::left_foot, Role::left_toes});
+    limb(true, {Role::right_upper_leg, Role::right_lower_leg, Role::right_foot, Role::right_toes});
+    limb(false, {Role::left_upper_arm, Role::left_lower_arm, Role::left_hand});
+    limb(false, {Role::right_upper_arm, Role::right_lower_arm, Role::right_hand});
+}
+
+void Body::find_animal_limbs() {
     LegChains standing;
     glm::dvec3 up(0.0), left(0.0);
+    const auto middle = [&](const std::vector<std::uint32_t>& leg) {
+        glm::dvec3 sum(0.0);
+        for (const std::uint32_t joint : leg) sum += 1.0 / static_cast<double>(leg.size()) * place(joint);
+        return sum;
+    };
     for (const Role role : leg_roles_of(kind_)) {
         const std::vector<std::uint32_t>& leg = standing.legs.emplace_back(chain(role));
-        up += place(leg.front()) - place(leg.back());
-        const double side = standing.legs.size() % 2 == 1 ? 1.0 : -1.0;
-        for (const std::uint32_t joint : leg) left += side / static_cast<double>(leg.size()) * place(joint);
+        if (!leg.empty()) up += place(leg.front()) - place(leg.back());
     }
-    standing.up = snapped(glm::normalize(up), kUpright);
-    standing.ahead = glm::normalize(glm::cross(left, standing.up));
+    for (std::size_t leg = 0; leg < standing.legs.size(); leg += 2) {
+        if (!standing.legs[leg].empty() && !standing.legs[leg + 1].empty())
+            left += middle(standing.legs[leg]) - middle(standing.legs[leg + 1]);
+    }
+    standing.up = snapped(unit_or(up, 0.0, kModelUp), kUpright);
+    standing.ahead = unit_or(glm::cross(unit_or(left, 0.0, kModelLeft), standing.up), 0.0, glm::dvec3(0.0));
     for (const auto& leg : standing.legs) {
         for (const std::uint32_t joint : leg)
             standing.ground = std::min(standing.ground, glm::dot(standing.up, place(joint)));
@@ -196,39 +193,91 @@ void Body::stand_on(const std::array<float, 4>& axes, double ground, const glm::
     ground_ = up() * (ground + glm::dot(up(), feet) - lowest);
 }
 
-bool Body::measure() {
-    find_limbs();
-    const glm::dvec3 hips = 0.5 * (place(limbs_[0].upper()) + place(limbs_[1].upper()));
-    const glm::dvec3 feet = 0.5 * (place(limbs_[0].foot_joint()) + place(limbs_[1].foot_joint()));
-    glm::dvec3 across(0.0), tops(0.0), bottoms(0.0);
+/// Returns the joint of the hips, or else the lowest of the trunk, or any that has a role.
+std::uint32_t Body::base() const {
+    for (const Role role : {Role::hips, Role::spine, Role::chest, Role::upper_chest, Role::neck, Role::head}) {
+        if (joint(role) != kNone) return joint(role);
+    }
+    return model_.roles().front().joint;
+}
+
+/// Returns the middle between the feet, or between where the legs end; the hips if there are no legs.
+glm::dvec3 Body::find_feet() const {
+    glm::dvec3 feet(0.0);
+    double count = 0.0;
+    for (const Limb& leg : std::span(limbs_).first(2)) {
+        if (leg.joints.empty()) continue;
+        feet += place(leg.joints[std::min(leg.foot, leg.joints.size() - 1)]);
+        count += 1.0;
+    }
+    return count > 0.0 ? 1.0 / count * feet : hips_;
+}
+
+/// Returns the mean length of the bones of a limb and its counterpart on the other side, as far as they have them.
+double Body::length_of(std::size_t first_limb, std::size_t bones) const {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t k = first_limb; k < std::min(first_limb + 2, limbs_.size()); ++k) {
+        const Limb& limb = limbs_[k];
+        const std::size_t last = std::min(bones, limb.foot);
+        if (limb.joints.size() <= last) continue;
+        for (std::size_t bone = 0; bone < last; ++bone)
+            sum += distance(place(limb.joints[bone]), place(limb.joints[bone + 1]));
+        count += 1.0;
+    }
+    return count > 0.0 ? sum / count : 0.0;
+}
+
+glm::dvec3 Body::find_up(const glm::dvec3& feet) const {
+    glm::dvec3 up(0.0);
+    if (kind_ == BodyKind::human) {
+        if (top() != kNone) up = place(top()) - feet;
+    } else {
+        for (const Limb& limb : limbs_) {
+            if (limb.joints.empty()) continue;
+            const glm::dvec3 end = place(limb.joints[std::min(limb.foot, limb.joints.size() - 1)]);
+            up += (place(limb.upper()) - end) / static_cast<double>(limbs_.size());
+        }
+    }
+    return snapped(unit_or(up, least_way(), kModelUp), kUpright);
+}
+
+glm::dvec3 Body::find_left(const glm::dvec3& up) const {
+    glm::dvec3 across(0.0);
     for (std::size_t left = 0; left < limbs_.size(); left += 2) {
         if (limbs_[left].joints.empty() || limbs_[left + 1].joints.empty()) continue;
         across = across + place(limbs_[left].upper()) - place(limbs_[left + 1].upper());
     }
-    for (const Limb& limb : limbs_) {
-        if (kind_ == BodyKind::human) break;
-        tops += place(limb.upper()) / static_cast<double>(limbs_.size());
-        bottoms += place(limb.foot_joint()) / static_cast<double>(limbs_.size());
+    const auto level = [&](const glm::dvec3& way) { return way - up * glm::dot(up, way); };
+    const glm::dvec3 of_model = unit_or(level(kModelLeft), kLeastWay, glm::dvec3(0.0, 0.0, 1.0));
+    return unit_or(level(across), least_way(), of_model);
+}
+
+/// Returns the length below which a difference of places says nothing, metres.
+double Body::least_way() const {
+    return kLeastWay * *std::max_element(lengths_.begin(), lengths_.end());
+}
+
+bool Body::measure() {
+    find_limbs();
+    hips_ = place(base());
+    if (has_hip_joints()) hips_ = 0.5 * (place(limbs_[0].upper()) + place(limbs_[1].upper()));
+    const glm::dvec3 feet = find_feet();
+    constexpr std::size_t kUpperBone = 1, kWhole = std::numeric_limits<std::size_t>::max();
+    lengths_ = {length_of(0, kWhole), length_of(0, kUpperBone),
+                top() == kNone ? 0.0 : distance(place(base()), place(top())), length_of(2, kWhole)};
+    for (const double length : lengths_) {
+        if (!std::isfinite(length)) return false;
     }
-    const glm::dvec3 along = kind_ == BodyKind::human ? place(top()) - feet : tops - bottoms;
-    leg_ = 0.0;
-    for (std::size_t leg = 0; leg < 2; ++leg) {
-        const Limb& limb = limbs_[leg];
-        for (std::size_t k = 0; k < limb.foot; ++k) leg_ += distance(place(limb.joints[k]), place(limb.joints[k + 1]));
-    }
-    leg_ *= 0.5;
-    if (!(leg_ > 1e-9) || !std::isfinite(leg_)) return false;
-    if (!(glm::length(along) > 1e-3 * leg_) || !std::isfinite(glm::length(along))) return false;
-    const glm::dvec3 up = snapped(glm::normalize(along), kUpright);
-    const glm::dvec3 left = across - up * glm::dot(up, across);
-    if (!(glm::length(left) > 1e-3 * leg_) || !std::isfinite(glm::length(left))) return false;
+    const glm::dvec3 up = find_up(feet);
+    const glm::dvec3 left = find_left(up);
+    if (!std::isfinite(glm::dot(up, left) + glm::dot(hips_, feet))) return false;
     if (standing_pose_) {
         stand_on(standing_pose_->axes, standing_pose_->ground, feet);
         return true;
     }
-    const glm::dvec3 x = snapped(glm::normalize(left), kAhead);
+    const glm::dvec3 x = snapped(left, kAhead);
     axes_ = glm::normalize(glm::quat_cast(glm::dmat3(x, up, glm::cross(x, up))));
-    ground_ = hips - up * glm::dot(hips - feet, up);
+    ground_ = hips_ - up * glm::dot(hips_ - feet, up);
     return true;
 }
 

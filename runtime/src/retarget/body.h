@@ -20,8 +20,8 @@ namespace bendy {
 /// A leg or an arm.
 struct Limb {
     std::vector<std::uint32_t> girdle;  ///< what carries it: an animal's shoulder blade or pelvis
-    /// From hip or shoulder outwards: three or more, the last of which are those of the paw. Fewer of an arm that the
-    /// body has in part, or not at all.
+    /// From hip or shoulder outwards, as far as they are there: three or more of a whole limb, the last of which are
+    /// those of the paw.
     std::vector<std::uint32_t> joints;
     std::size_t foot = 2;  ///< among the joints: foot or hand
     bool is_leg = true;
@@ -50,13 +50,9 @@ public:
     [[nodiscard]] std::vector<std::uint32_t> chain(Role role) const;
     [[nodiscard]] bool has_role(std::uint32_t joint) const { return has_role_[joint]; }
     [[nodiscard]] BodyKind kind() const { return kind_; }
-    /// The roles that retargeting needs and the model does not have, or has too few joints of.
-    [[nodiscard]] std::vector<Role> missing() const;
-
     [[nodiscard]] const glm::dmat4& rest(std::uint32_t joint) const { return rest_[joint]; }
     [[nodiscard]] glm::dvec3 place(std::uint32_t joint) const { return {rest_[joint][3]}; }
-    [[nodiscard]] glm::dvec3 place(Role role) const { return place(joint(role)); }
-    /// The head of a human, or else the highest of its joints from there down to the hips.
+    /// The head, or else the highest joint of the trunk from there down to the hips; kNone if there is none.
     [[nodiscard]] std::uint32_t top() const;
     /// The joint's orientation: the product of the rotations down to it. Uneven scales above it are ignored, mirroring
     /// ones are half turns.
@@ -67,8 +63,8 @@ public:
     /// The half turn of a joint that mirrors, otherwise the identity.
     [[nodiscard]] glm::dquat flip(std::uint32_t joint) const;
 
-    // Of a body without missing roles:
-    /// Measures the body; returns false if its legs have no length, or a number is not finite.
+    // Of a body with a role, at least:
+    /// Measures the body; returns false if a number is not finite.
     bool measure();
     /// The body's axes, to model space: X left, Y up, Z forward. Where they nearly are axes of model space, they are
     /// exactly.
@@ -76,12 +72,26 @@ public:
     [[nodiscard]] glm::dvec3 up() const { return axes_ * glm::dvec3(0.0, 1.0, 0.0); }
     /// Left leg, right leg, left arm, right arm. Of an animal, the hind legs, then the front legs if it has any.
     [[nodiscard]] const std::vector<Limb>& limbs() const { return limbs_; }
-    [[nodiscard]] double leg() const { return leg_; }  ///< metres from hip by knee to foot, of a hind leg
-    /// Below the middle of the hip joints, at the height of the feet.
+    [[nodiscard]] bool has_hip_joints() const { return !limbs_[0].joints.empty() && !limbs_[1].joints.empty(); }
+    /// Both of the first two are whole.
+    [[nodiscard]] bool has_legs() const { return limbs_[0].is_whole() && limbs_[1].is_whole(); }
+    /// Lengths that two bodies are compared by, metres: of the legs from hip by knee to foot (of an animal, the hind
+    /// legs), of their upper bones, of the trunk, of the arms or front legs. 0: the body has none.
+    [[nodiscard]] const std::array<double, 4>& lengths() const { return lengths_; }
+    /// The middle of the hip joints, or else the joint of the hips, or the lowest that there is of the body.
+    [[nodiscard]] const glm::dvec3& hips() const { return hips_; }
+    /// Below the hips, at the height of the feet.
     [[nodiscard]] const glm::dvec3& ground() const { return ground_; }
 
 private:
     void find_limbs();
+    void find_animal_limbs();
+    [[nodiscard]] std::uint32_t base() const;
+    [[nodiscard]] glm::dvec3 find_feet() const;
+    [[nodiscard]] double length_of(std::size_t first_limb, std::size_t bones) const;
+    [[nodiscard]] glm::dvec3 find_up(const glm::dvec3& feet) const;
+    [[nodiscard]] glm::dvec3 find_left(const glm::dvec3& up) const;
+    [[nodiscard]] double least_way() const;
     void stand_on(const std::array<float, 4>& axes, double ground, const glm::dvec3& feet);
 
     Model model_;
@@ -93,8 +103,8 @@ private:
     std::optional<StandingPoseRecord> standing_pose_;
     std::vector<Limb> limbs_;
     glm::dquat axes_{1.0, 0.0, 0.0, 0.0};
-    double leg_ = 0.0;
-    glm::dvec3 ground_{0.0};
+    std::array<double, 4> lengths_{};
+    glm::dvec3 hips_{0.0}, ground_{0.0};
 };
 
 }  // namespace bendy

@@ -160,11 +160,12 @@ public:
             align(to.joints[k], source_.place(from.joints[k + 1]) - source_.place(from.joints[k]),
                   target_.place(to.joints[k + 1]) - target_.place(to.joints[k]));
         }
-        if (!from.is_leg) {
-            // Without a hand nobody knows where the forearm points.
-            if (foot == 1) pairs_[to.joints[1]].align = pairs_[to.joints[0]].align;
+        if (foot < std::min(from.foot, to.foot)) {
+            // Without a foot or a hand nobody knows where the last bone points.
+            if (foot > 0) pairs_[to.joints[foot]].align = pairs_[to.joints[foot - 1]].align;
             return;
         }
+        if (!from.is_leg) return;
         align(to.joints[foot], heading_of(source_, from, foot), heading_of(target_, to, foot));
         if (is_human_ && from.toes() != kNone && to.toes() != kNone) {
             align_if_unlike(to.joints[foot], source_.place(from.toes()) - source_.place(from.joints[foot]),
@@ -272,7 +273,7 @@ private:
 
     static std::optional<glm::dvec3> way_of(const Body& body, Role from, Role to) {
         if (body.joint(from) == kNone || body.joint(to) == kNone) return std::nullopt;
-        return body.place(to) - body.place(from);
+        return body.place(body.joint(to)) - body.place(body.joint(from));
     }
 
     void align(std::uint32_t joint, const std::optional<glm::dvec3>& source, const std::optional<glm::dvec3>& target) {

@@ -27,9 +27,8 @@ public:
     PlanMaker(RetargetPlan& plan, const Body& source, const Body& target)
         : plan_(plan), source_(source), target_(target) {}
 
-    /// Returns false if a length is missing.
-    bool make() {
-        if (!make_map()) return false;
+    void make() {
+        make_map();
         pairs_ = pair_joints(source_, target_, plan_.map.turn, plan_.options.rest_poses);
         for (const JointPair& pair : pairs_) plan_.joints.push_back(pair.a == kNone ? kNone : pair.nearer());
         list_source_joints();
@@ -47,29 +46,49 @@ public:
         find_detached();
         make_limbs();
         match_morph_targets();
-        return true;
     }
 
 private:
-    bool make_map() {
+    static constexpr double kLeast = 1e-9;  // metres: what is shorter has no length
+
+    void make_map() {
         SpaceMap& map = plan_.map;
         map.turn = source_.axes() == target_.axes() ? kNoTurn
                                                     : glm::normalize(target_.axes() * glm::conjugate(source_.axes()));
         plan_.source_up = source_.up();
         plan_.up = target_.up();
-        plan_.source_leg = source_.leg();
-        plan_.leg = target_.leg();
         plan_.is_human = target_.kind() == BodyKind::human;
-        if (plan_.options.rest_poses == RestPoses::measured) {
-            map.scale = target_.leg() / source_.leg();
-            map.from = source_.ground();
-            map.to = target_.ground();
-            return true;
+        compare_sizes();
+        map.scale = plan_.leg / plan_.source_leg;
+        const bool is_measured = plan_.options.rest_poses == RestPoses::measured;
+        if (is_measured && have_hip_joints()) {
+            const bool have_legs = source_.has_legs() && target_.has_legs();
+            map.from = have_legs ? source_.ground() : source_.hips();
+            map.to = have_legs ? target_.ground() : target_.hips();
+            return;
         }
-        const double from = glm::dot(source_.up(), source_.place(Role::hips));
-        const double to = glm::dot(target_.up(), target_.place(Role::hips));
-        map.scale = to / from;
-        return from > 1e-9 && to > 1e-9 && std::isfinite(map.scale);
+        const std::uint32_t source_hips = source_.joint(Role::hips), target_hips = target_.joint(Role::hips);
+        if (source_hips == kNone || target_hips == kNone) return;
+        if (is_measured) {
+            map.from = source_.place(source_hips);
+            map.to = target_.place(target_hips);
+            return;
+        }
+        const double from = glm::dot(source_.up(), source_.place(source_hips));
+        const double to = glm::dot(target_.up(), target_.place(target_hips));
+        if (from > kLeast && to > kLeast) map.scale = to / from;
+    }
+
+    [[nodiscard]] bool have_hip_joints() const { return source_.has_hip_joints() && target_.has_hip_joints(); }
+
+    /// Compares the legs or, where one of the two has none, what both have.
+    void compare_sizes() {
+        for (std::size_t k = 0; k < source_.lengths().size(); ++k) {
+            if (!(source_.lengths()[k] > kLeast) || !(target_.lengths()[k] > kLeast)) continue;
+            plan_.source_leg = source_.lengths()[k];
+            plan_.leg = target_.lengths()[k];
+            return;
+        }
     }
 
     void list_source_joints() {
@@ -179,12 +198,12 @@ private:
     void make_hips() {
         HipsPlan& hips = plan_.hips;
         const std::uint32_t joint = target_.joint(Role::hips);
-        if (moved_of_[joint] == kNone || plan_.moved[moved_of_[joint]].is_copy) return;
+        if (joint == kNone || moved_of_[joint] == kNone || plan_.moved[moved_of_[joint]].is_copy) return;
         const glm::dmat4 inverse = glm::inverse(target_.rest(joint));
         if (!std::isfinite(inverse[3].x + inverse[0].x + inverse[1].y + inverse[2].z)) return;
         hips.joint = joint;
         hips.source = {source_.joint(Role::hips), source_.joint(Role::hips)};
-        if (plan_.options.rest_poses == RestPoses::measured) {
+        if (plan_.options.rest_poses == RestPoses::measured && have_hip_joints()) {
             const std::vector<Limb>& limbs = target_.limbs();
             hips.source = {source_.limbs()[0].upper(), source_.limbs()[1].upper()};
             hips.middle = 0.5 * (place_in(joint, limbs[0].upper()) + place_in(joint, limbs[1].upper()));
@@ -200,7 +219,7 @@ private:
         if (plan_.is_human) find_detached_trunk(hips);
         for (std::size_t k = 0; k < target_.limbs().size(); ++k) {
             const Limb& limb = target_.limbs()[k];
-            if (k < 2) add_detached(hips, limb.upper());
+            if (k < 2 && !limb.joints.empty()) add_detached(hips, limb.upper());
             for (std::size_t j = 1; j < limb.joints.size(); ++j) add_detached(limb.joints[j - 1], limb.joints[j]);
         }
     }
@@ -224,7 +243,7 @@ private:
     }
 
     void add_detached(std::uint32_t carrier, std::uint32_t joint) {
-        if (links_between(carrier, joint) != 0) return;
+        if (carrier == kNone || links_between(carrier, joint) != 0) return;
         if (moved_of_[joint] != kNone && plan_.moved[moved_of_[joint]].is_copy) return;
         plan_.detached.push_back({joint, carrier, place_in(carrier, joint)});
     }
@@ -239,9 +258,10 @@ private:
         plan_.limbs.resize(target_.limbs().size());
         for (std::size_t k = 0; k < plan_.limbs.size(); ++k) {
             const Limb& limb = target_.limbs()[k];
+            FootPlan* const foot = limb.is_leg ? &plan_.feet.emplace_back() : nullptr;
             if (!limb.is_whole() || !source_.limbs()[k].is_whole()) continue;
             make_limb(plan_.limbs[k], source_.limbs()[k], limb, k < 2 ? ahead : -ahead);
-            if (limb.is_leg) make_foot(plan_.feet.emplace_back(), source_.limbs()[k], limb);
+            if (foot != nullptr) make_foot(*foot, source_.limbs()[k], limb);
         }
     }
 
@@ -355,10 +375,8 @@ private:
 
 /// Returns what is wrong with a body, if anything is.
 std::optional<RetargetError> fault_of(Body& body, bool is_source) {
-    if (body.model().roles().empty()) return RetargetError{RetargetError::Reason::no_roles, is_source, {}};
-    std::vector<Role> missing = body.missing();
-    if (!missing.empty()) return RetargetError{RetargetError::Reason::missing_roles, is_source, std::move(missing)};
-    if (!body.measure()) return RetargetError{RetargetError::Reason::no_size, is_source, {}};
+    if (body.model().roles().empty()) return RetargetError{RetargetError::Reason::no_roles, is_source};
+    if (!body.measure()) return RetargetError{RetargetError::Reason::not_finite, is_source};
     return std::nullopt;
 }
 
@@ -384,11 +402,10 @@ Result<Retarget, RetargetError> RetargetPlan::make(const Model& source, const Mo
     }
     if (auto fault = fault_of(from, true)) return *fault;
     if (auto fault = fault_of(to, false)) return *fault;
-    if (from.kind() != to.kind())
-        return RetargetError{RetargetError::Reason::other_body, true, {}, from.kind(), to.kind()};
+    if (from.kind() != to.kind()) return RetargetError{RetargetError::Reason::other_body, true, from.kind(), to.kind()};
     auto plan = std::make_unique<RetargetPlan>(source, target);
     plan->options = options;
-    if (!PlanMaker(*plan, from, to).make()) return RetargetError{RetargetError::Reason::no_size, false, {}};
+    PlanMaker(*plan, from, to).make();
     return Retarget(std::move(plan));
 }
 
@@ -406,14 +423,7 @@ std::string error_text(const RetargetError& error) {
     const std::string who = error.is_source ? "the source" : "the target";
     if (error.reason == RetargetError::Reason::no_roles)
         return who + " does not say what its joints are: list them as \"roles\" in its rig file";
-    if (error.reason == RetargetError::Reason::no_size)
-        return who + " has legs without length, or joints at places that are not finite";
-    const bool is_animal =
-        std::any_of(error.missing.begin(), error.missing.end(), [](Role role) { return role >= kFirstChainRole; });
-    std::string text = who + (is_animal ? " has too few joints for" : " has no joint for");
-    for (std::size_t k = 0; k < error.missing.size(); ++k)
-        text.append(k == 0 ? " " : ", ").append(kValueNames<Role>[static_cast<std::size_t>(error.missing[k])]);
-    return text + ": name them as \"roles\" in its rig file";
+    return who + " has joints at places that are not finite";
 }
 
 }  // namespace bendy

@@ -111,6 +111,10 @@ const Model& Retarget::target() const {
     return plan_->target;
 }
 
+glm::quat Retarget::turn() const {
+    return glm::quat(plan_->map.turn);
+}
+
 float Retarget::scale() const {
     return static_cast<float>(plan_->map.scale);
 }

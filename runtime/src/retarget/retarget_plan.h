@@ -118,7 +118,7 @@ struct RetargetPlan {
     HipsPlan hips;
     SpaceMap map;
     glm::dvec3 source_up{0, 1, 0}, up{0, 1, 0};
-    double source_leg = 1.0, leg = 1.0;
+    double source_leg = 1.0, leg = 1.0;  ///< metres: see Retarget::leg
     bool is_human = true;
     std::vector<LimbPlan> limbs;  ///< see Body::limbs
     std::vector<FootPlan> feet;   ///< of the first limbs

@@ -3,6 +3,7 @@
 #include "commands/model_options.h"
 #include "files/input.h"
 #include "files/output.h"
+#include "reports/json.h"
 #include "reports/messages.h"
 
 #include <bendy/edit/clips.h>
@@ -39,6 +40,7 @@ struct EditArguments {
     bool ignores_constraints = false, free_feet = false, rests_alike = false;
     bool in_place = false;
     bool quiet = false;
+    bool strict = false, json = false;
 };
 
 /// One change; successive renames of the same kind are one change.
@@ -287,6 +289,12 @@ CharacterFile open_edited(const EditArguments& arguments, Outputs& outputs) {
     return open_character(arguments.input, arguments.root, outputs);
 }
 
+Json list_of(const std::vector<std::string>& lines) {
+    Json list = Json::array();
+    for (const std::string& line : lines) list.push_back(line);
+    return list;
+}
+
 /// \param outputs  is told what is read besides the file itself
 void run(const EditArguments& arguments, const std::vector<Step>& steps, Outputs& outputs) {
     if (!arguments.in_place) outputs.reads(arguments.input);
@@ -302,8 +310,20 @@ void run(const EditArguments& arguments, const std::vector<Step>& steps, Outputs
         if (!edited) fail(arguments.input, printable(edited.error().message));
         bytes = *std::move(edited);
     }
+    if (arguments.strict && !log.warnings.empty()) {
+        for (const std::string& warning : log.warnings) warn(arguments.input, printable(warning));
+        fail(arguments.input, "there are warnings, and --strict: nothing is written");
+    }
     file = CharacterFile(InputBytes());  // the output may be the input, and Windows cannot replace a mapped file
     outputs.write(arguments.output, bytes);
+    if (arguments.json) {
+        print_report(Json{{"file", arguments.output.string()},
+                          {"bytes", bytes.size()},
+                          {"done", list_of(log.done)},
+                          {"warnings", list_of(log.warnings)}},
+                     2);
+        return;
+    }
     for (const std::string& warning : log.warnings) warn(arguments.input, printable(warning));
     if (arguments.quiet) return;
     print_change(arguments, size_before, bytes.size());
@@ -357,6 +377,8 @@ void add_edit(CLI::App& program) {
     add_root(*command, arguments->root);
     add("--extract", "make a character of this joint and its descendants; it keeps its place in every clip");
     command->add_flag("-q,--quiet", arguments->quiet, "no summary; warnings and errors only");
+    command->add_flag("--strict", arguments->strict, "exit with 1 and write nothing if there is a warning");
+    command->add_flag("--json", arguments->json, "print a JSON report instead of the summary and warnings");
     command->footer(
         "Names may have * and ?. A number may stand for a name: 0, or #0 beside something called 0, which is =0 then.\n"
         "Options are applied in their order; renames of one kind that follow one another happen at once, and so does\n"
@@ -368,6 +390,8 @@ void add_edit(CLI::App& program) {
         if (arguments->in_place) arguments->output = arguments->input;
         if (arguments->in_place && is_dash(arguments->input))
             throw CLI::ValidationError("--in-place", "goes with a file, not with standard input: -o - writes on");
+        if (arguments->json && is_dash(arguments->output))
+            throw CLI::ValidationError("--json", "goes to standard output, and so does the file: give that a name");
         Outputs outputs;
         Steps steps(*arguments, outputs);
         for (const CLI::Option* option : command->parse_order()) steps.add(option->get_name());

@@ -2,6 +2,7 @@
 
 #include "linear_keys.h"
 #include "sample_times.h"
+#include "shared_bones.h"
 
 #include <bendy/motion/retarget_clips.h>
 #include <bendy/runtime/constrain.h>
@@ -47,6 +48,7 @@ struct Sample {
     Retargeted done;
     Frame frame;
     std::vector<float> weights;
+    std::vector<double> off;  ///< by shared bone: radians between its direction and the source's
 };
 
 Frame frame_of(const Pose& pose) {
@@ -74,7 +76,9 @@ public:
           options_(options),
           source_(retarget.source()),
           target_(retarget.target()),
-          curves_(contact_curves(clip)) {
+          curves_(contact_curves(clip)),
+          bones_(list_shared_bones(retarget)),
+          farthest_(bones_.size()) {
         result_.kept.resize(retarget.source().joints().size());
         result_.moves.resize(result_.kept.size());
         result_.stretches.resize(result_.kept.size());
@@ -89,6 +93,7 @@ public:
         make_tracks(sampled_meshes);
         make_contacts();
         measure();
+        compare_with_source();
         return std::move(result_);
     }
 
@@ -256,7 +261,8 @@ private:
     std::optional<Sample> sample_at(float seconds, RetargetState& state) {
         const auto done = step(seconds, state);
         if (!done) return std::nullopt;
-        Sample sample{seconds, *done, frame_of(target_), {}};
+        Sample sample{seconds, *done, frame_of(target_), {}, {}};
+        for (const SharedBone& bone : bones_) sample.off.push_back(angle_of(bone, source_, target_, retarget_.turn()));
         sample.weights.assign(target_.morph_weights().begin(), target_.morph_weights().end());
         note_source(sample.frame);
         note_kept(sample.frame);
@@ -265,6 +271,7 @@ private:
 
     void record(Sample sample) {
         note(sample.done, sample.seconds);
+        note_off(sample);
         times_.push_back(sample.seconds);
         frames_.push_back(std::move(sample.frame));
         weights_.push_back(std::move(sample.weights));
@@ -284,6 +291,43 @@ private:
             result_.missed_joint = done.missed_joint;
         }
         result_.lowered = std::max(result_.lowered, done.lowered);
+    }
+
+    void note_off(const Sample& sample) {
+        for (std::size_t k = 0; k < bones_.size(); ++k) {
+            sum_off_ += sample.off[k];
+            if (sample.off[k] <= farthest_[k].angle) continue;
+            farthest_[k] = {bones_[k].target.from, sample.off[k], sample.seconds};
+        }
+    }
+
+    /// Finds the bones that are farthest off, and why.
+    void compare_with_source() {
+        const auto farther = [](FarthestOff& most, const FarthestOff& one) {
+            if (one.angle > most.angle) most = one;
+        };
+        for (std::size_t k = 0; k < bones_.size(); ++k) {
+            farther(result_.farthest_off, farthest_[k]);
+            if (farthest_[k].angle <= bones_[k].far) continue;
+            farther(result_.far_off[static_cast<std::size_t>(cause_of(bones_[k], farthest_[k].seconds))], farthest_[k]);
+        }
+        if (!bones_.empty()) result_.mean_off = sum_off_ / static_cast<double>(bones_.size() * times_.size());
+    }
+
+    /// Finds out by leaving limits and ground away.
+    Cause cause_of(const SharedBone& bone, float seconds) {
+        const auto is_off = [&](bool obeys) {
+            RetargetOptions options = options_;
+            options.obey_constraints = obeys;
+            options.plants_feet = false;
+            auto other = Retarget::make(retarget_.source(), retarget_.target(), options);
+            RetargetState state;
+            if (!other || !sample(source_, &clip_, seconds)) return false;
+            if (!bendy::retarget(target_, *other, source_, state)) return false;
+            return angle_of(bone, source_, target_, retarget_.turn()) > bone.far;
+        };
+        if (is_off(false)) return Cause::rests;
+        return options_.obey_constraints && is_off(true) ? Cause::limits : Cause::ground;
     }
 
     void note_source(const Frame& frame) {
@@ -455,6 +499,9 @@ private:
     std::size_t most_ = 0;  // samples
     std::vector<Frame> frames_, between_;
     Frame first_;  // of the source
+    std::vector<SharedBone> bones_;
+    std::vector<FarthestOff> farthest_;  // by shared bone
+    double sum_off_ = 0.0;               // radians, of all bones in all frames
     std::vector<std::vector<float>> weights_;
     std::vector<ContactWeights> contacts_;
     std::pair<std::vector<float>, std::vector<ContactWeights>> weights_over_time_;  // found by find_contacts

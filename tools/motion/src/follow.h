@@ -4,6 +4,7 @@
 #include <bendy/runtime/model.h>
 #include <bendy/runtime/retarget.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -24,6 +25,21 @@ struct Held {
     float seconds = 0.0f;
 };
 
+/// Why a bone points elsewhere than the source's.
+enum class Cause : std::uint8_t {
+    rests,   ///< it does so without limits and ground, too: a standing pose is wrong, or the bodies are unlike
+    limits,  ///< limits of the target
+    ground,  ///< a foot that is held on the ground
+};
+inline constexpr std::size_t kCauses = 3;
+
+/// The bone that is farthest off the source's direction, of those for the same cause.
+struct FarthestOff {
+    std::uint32_t joint = kNone;  ///< of the target, where the bone begins; kNone: none is far off
+    double angle = 0.0;           ///< radians
+    float seconds = 0.0f;
+};
+
 /// A clip as it is on the target.
 struct Followed {
     std::vector<bool> kept;             ///< by joint of the source: the target's has its numbers in every frame
@@ -41,6 +57,10 @@ struct Followed {
     /// Metres: how far the joint that is farthest off is from where Retarget has it, at the frames and between them.
     double error = 0.0, mean_error = 0.0;
     float error_at = 0.0f;  ///< seconds
+    /// Against the source: between directions of bones that both bodies have, all of them, at the frames.
+    FarthestOff farthest_off;
+    double mean_off = 0.0;                       ///< radians
+    std::array<FarthestOff, kCauses> far_off{};  ///< by Cause: bones that are farther off than SharedBone::far
 };
 
 /// Plays the clip on the target. Nothing, if a number is not finite.

@@ -78,15 +78,32 @@ Problem explain(const RetargetError& error, const Model& source, const Model& ta
     std::vector<std::size_t> numbers(model.joints().size());
     for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = k;
     std::string text = error_text(error);
-    if (error.reason == RetargetError::Reason::other_body) return {text};
-    if (error.reason == RetargetError::Reason::no_size) return {text + ": is there no rest pose?"};
+    if (error.reason != RetargetError::Reason::no_roles) return {text};
     text +=
         " (it has " + counted(numbers.size(), "joint") + ": " + list_names(names_of(model.joints()), numbers, 6) + ")";
-    const Role example = error.missing.empty() ? Role::hips : error.missing.front();
-    return {text + R"(, as in {"bendy_rig": 1, "roles": {")" +
-            std::string(kValueNames<Role>[static_cast<std::size_t>(example)]) + R"(": )" +
-            (example < kFirstChainRole ? R"("NAME")" : R"(["NAME", "NAME", "NAME"])") + "}}"};
+    return {text + R"(, as in {"bendy_rig": 1, "roles": {"hips": "NAME"}})"};
 }
+
+/// What is doubtful in some of the clips.
+struct Doubt {
+    std::size_t clips = 0;
+    std::uint32_t joint = kNone;  ///< of the target, in the worst clip
+    std::size_t clip = 0;         ///< the worst one
+    double most = 0.0;
+    float seconds = 0.0f;
+
+    void add(std::uint32_t at, std::size_t in_clip, double amount, float when) {
+        if (!(amount > 0.0)) return;
+        ++clips;
+        if (amount <= most) return;
+        joint = at;
+        clip = in_clip;
+        most = amount;
+        seconds = when;
+    }
+};
+
+constexpr double kFarMiss = 0.05;  // of the length of the legs
 
 class ClipRetargeting {
 public:
@@ -122,6 +139,7 @@ public:
         }
         if (!useless.empty()) log_.warnings.push_back("clips that animate nothing in this file are left out: " + names);
         warn();
+        warn_of_doubts();
         return std::move(transfer_);
     }
 
@@ -203,6 +221,7 @@ private:
             lost_[joint] = lost_[joint] || (followed.moves[joint] && !is_here && !is_column(joint));
             stretched_[joint] = stretched_[joint] || followed.stretches[joint];
         }
+        collect_doubts(number, followed);
         Transfer::Clip& clip = transfer_.clips.emplace_back();
         clip.number = number;
         clip.report = report(followed);
@@ -220,13 +239,13 @@ private:
         }
     }
 
-    /// Columns of other numbers of joints share the turns of spine, neck, tail and wings.
+    /// Columns of other numbers of joints share the turns of spine, neck, tail and wings: none of theirs is lost.
     [[nodiscard]] bool is_column(std::size_t joint) const {
         return std::any_of(source_.roles().begin(), source_.roles().end(), [&](const JointRole& one) {
             const auto role = static_cast<Role>(one.role);
             const bool is_leg = role >= Role::left_front_leg && role <= Role::right_hind_leg;
             return one.joint == joint &&
-                   ((role >= Role::hips && role <= Role::head) || (role >= kFirstChainRole && !is_leg));
+                   ((role > Role::hips && role < Role::head) || (role >= kFirstChainRole && !is_leg));
         });
     }
 
@@ -242,6 +261,11 @@ private:
         }
         if (kept != 0) text += (text.empty() ? "" : ", ") + counted(kept, "joint") + " as in the source";
         if (followed.has_contacts) text += ", feet by its contact curves";
+        if (followed.farthest_off.joint != kNone) {
+            text += std::string(text.empty() ? "" : "; ") + "bones point " + degrees(followed.mean_off) +
+                    " off the source's on average, " + degrees(followed.farthest_off.angle) + " at " +
+                    name_of(followed.farthest_off.joint) + with(" at %.3g s", followed.farthest_off.seconds);
+        }
         if (followed.limited == 0 && options_.retarget.obey_constraints) text += "; no limit acted";
         if (followed.limited != 0) text += limits_text(followed);
         if (followed.missed > 1e-4) {
@@ -273,6 +297,45 @@ private:
         return text;
     }
 
+    /// What is worse in a clip than a viewer would take for the source's motion.
+    void collect_doubts(std::size_t clip, const Followed& followed) {
+        for (std::size_t cause = 0; cause < kCauses; ++cause) {
+            const FarthestOff& off = followed.far_off[cause];
+            doubts_[cause].add(off.joint, clip, off.angle, off.seconds);
+        }
+        const double far = kFarMiss * double{retarget_.leg()};
+        if (followed.missed > far) missed_.add(followed.missed_joint, clip, followed.missed, followed.missed_at);
+        if (followed.lowered > far) lowered_.add(kNone, clip, followed.lowered, 0.0f);
+    }
+
+    void warn_of_doubts() {
+        const std::string most = " far from the source's directions in ";
+        tell(doubts_[static_cast<std::size_t>(Cause::rests)], "bones point" + most, degrees,
+             "one of the two does not stand at rest or is built otherwise: say with --stand when it stands, or try "
+             "--rests-alike");
+        tell(doubts_[static_cast<std::size_t>(Cause::limits)], "limits turn bones" + most, degrees,
+             "--ignore-constraints goes beyond them");
+        tell(doubts_[static_cast<std::size_t>(Cause::ground)], "feet on the ground turn legs" + most, degrees,
+             "--free-feet lets them go");
+        const double leg = retarget_.leg();
+        const auto of_leg = [leg](double metres) {
+            return millimetres(metres) + with(", %.0f %% of the leg,", 100.0 * metres / leg);
+        };
+        tell(missed_, "feet or hands miss their places in ", of_leg,
+             "--ignore-constraints and --free-feet say what may give way");
+        tell(lowered_, "the hips are lowered, so that feet reach the ground, in ", of_leg, "--free-feet leaves them");
+    }
+
+    template <class Amount>
+    void tell(const Doubt& doubt, const std::string& what, const Amount& amount, const std::string& remedy) {
+        if (doubt.clips == 0) return;
+        std::string text = what + counted(doubt.clips, "clip") + ", most";
+        if (doubt.joint != kNone) text += ' ' + name_of(doubt.joint);
+        text += " by " + amount(doubt.most) + " in " + quoted(source_.clips()[doubt.clip].name, doubt.clip);
+        if (doubt.joint != kNone) text += with(" at %.3g s", doubt.seconds);
+        log_.warnings.push_back(text + "; " + remedy);
+    }
+
     static std::vector<std::size_t> numbers_in(const std::vector<bool>& set) {
         std::vector<std::size_t> numbers;
         for (std::size_t k = 0; k < set.size(); ++k) {
@@ -288,9 +351,8 @@ private:
                                     list_names(names, lost));
         }
         if (const auto still = missing_there(); !still.empty()) {
-            log_.warnings.push_back("the source has no joints for " + counted(still.size(), "joint") +
-                                    " of the head and arms here, which keep their rest: " +
-                                    list_names(names_of(target_.joints()), still));
+            log_.warnings.push_back("the source has no counterpart of " + counted(still.size(), "joint") +
+                                    " here, left at rest: " + list_names(names_of(target_.joints()), still));
         }
         if (const auto stretched = numbers_in(stretched_); !stretched.empty()) {
             log_.warnings.push_back("limbs keep their lengths; the clips move or scale " +
@@ -313,10 +375,21 @@ private:
         log_.warnings.push_back("there are no morph targets here for the weights of " + list_names(lost, all));
     }
 
-    /// Joints of the target's arms and head that nothing moves.
+    /// Joints of the target's hips, head and limbs that nothing moves.
     [[nodiscard]] std::vector<std::size_t> missing_there() const {
-        constexpr std::array kParts{Role::head,      Role::left_upper_arm,  Role::left_lower_arm,
-                                    Role::left_hand, Role::right_upper_arm, Role::right_lower_arm,
+        constexpr std::array kParts{Role::hips,
+                                    Role::head,
+                                    Role::left_upper_leg,
+                                    Role::left_lower_leg,
+                                    Role::left_foot,
+                                    Role::right_upper_leg,
+                                    Role::right_lower_leg,
+                                    Role::right_foot,
+                                    Role::left_upper_arm,
+                                    Role::left_lower_arm,
+                                    Role::left_hand,
+                                    Role::right_upper_arm,
+                                    Role::right_lower_arm,
                                     Role::right_hand};
         std::vector<std::size_t> still;
         for (const JointRole& role : target_.roles()) {
@@ -342,6 +415,8 @@ private:
     Transfer transfer_;
     std::vector<std::uint32_t> sampled_;  // meshes of the target
     std::vector<bool> has_role_, lost_, stretched_;
+    std::array<Doubt, kCauses> doubts_;
+    Doubt missed_, lowered_;
 };
 
 }  // namespace

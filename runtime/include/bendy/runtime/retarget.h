@@ -6,6 +6,7 @@
 #include <bendy/runtime/call_error.h>
 #include <bendy/runtime/pose.h>
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -54,18 +55,16 @@ enum class BodyKind : std::uint8_t {
 /// Why two models cannot be retargeted.
 struct RetargetError {
     enum class Reason : std::uint8_t {
-        no_roles,       ///< the model does not say what its joints are
-        missing_roles,  ///< some of the joints that are needed have no role
-        no_size,        ///< the legs have no length, or a number is not finite
-        other_body,     ///< the two are not of the same kind
+        no_roles,    ///< the model does not say what its joints are
+        not_finite,  ///< a place of a joint at rest is not finite
+        other_body,  ///< the two are not of the same kind
     };
     Reason reason = Reason::no_roles;
     bool is_source = false;                                       ///< whose fault it is: the source's or the target's
-    std::vector<Role> missing;                                    ///< for missing_roles
     BodyKind source = BodyKind::human, target = BodyKind::human;  ///< for other_body
 };
 
-/// Says what is missing and what to write in the rig file. Allocates.
+/// Says what is wrong and what to write in the rig file. Allocates.
 std::string error_text(const RetargetError& error);
 
 /// Feet, with two points of contact each. Those of an animal's hind legs are named as a human's; its heel is where the
@@ -114,9 +113,9 @@ struct Retargeted {
 /// their parent. Limbs keep the target's lengths; the hips' travel is scaled by the length of the legs.
 class Retarget {
 public:
-    /// Both models are humans, animals on four legs, or animals on two. A human needs the roles of VRM's required bones
-    /// except the spine: hips, head, upper and lower arms and legs, hands, feet. An animal needs hips, and three joints
-    /// or more of each leg.
+    /// Both models are humans, animals on four legs, or animals on two. They need not be whole: joints with a role that
+    /// the source lacks keep their rest relative to their parent, and feet are planted where both have the whole leg,
+    /// from hip to foot. Where one has no legs, the hips travel from where they are at rest.
     static Result<Retarget, RetargetError> make(const Model& source, const Model& target,
                                                 const RetargetOptions& options = {});
     Retarget(const Retarget& other);
@@ -127,9 +126,13 @@ public:
 
     [[nodiscard]] const Model& source() const;
     [[nodiscard]] const Model& target() const;
-    /// The target's size as a multiple of the source's, by the length of the legs.
+    /// Turns directions from the source's model space to the target's: both bodies' up and front correspond.
+    [[nodiscard]] glm::quat turn() const;
+    /// The target's size as a multiple of the source's, by the length of the legs; where one of the two has none, by
+    /// that of the legs' upper bones, the trunk or the arms.
     [[nodiscard]] float scale() const;
-    /// The length of the target's legs (of an animal, its hind legs) from hip to foot, metres.
+    /// The length of the target's legs (of an animal, its hind legs) from hip to foot, metres; where one of the two has
+    /// none, of what the sizes are compared by.
     [[nodiscard]] float leg() const;
     /// For each joint of the target, the source's joint that turns it, or kNone. Where two joints do, the nearer one.
     [[nodiscard]] std::span<const std::uint32_t> joints() const;

@@ -1,0 +1,90 @@
+#include "shared_bones.h"
+
+#include <bendy/format/role.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace bendy::motion {
+namespace {
+
+/// Bones of limbs have the source's directions; trunks, necks, collarbones and feet have those of their own rig, which
+/// differ by up to 48 degrees between makers (docs/decisions/0070).
+constexpr double kFarOfLimb = 0.35, kFarOfOthers = 0.87;  // radians: 20 and 50 degrees
+
+/// Of an animal's leg: where the foot begins below them is not the same in every family, and it is only held level.
+constexpr std::size_t kUpperBones = 2;
+
+struct HumanBone {
+    Role from, to;
+    double far = kFarOfLimb;
+};
+
+constexpr std::array kHumanBones{
+    HumanBone{Role::hips, Role::neck, kFarOfOthers},
+    HumanBone{Role::neck, Role::head, kFarOfOthers},
+    HumanBone{Role::left_shoulder, Role::left_upper_arm, kFarOfOthers},
+    HumanBone{Role::right_shoulder, Role::right_upper_arm, kFarOfOthers},
+    HumanBone{Role::left_upper_arm, Role::left_lower_arm},
+    HumanBone{Role::right_upper_arm, Role::right_lower_arm},
+    HumanBone{Role::left_lower_arm, Role::left_hand},
+    HumanBone{Role::right_lower_arm, Role::right_hand},
+    HumanBone{Role::left_upper_leg, Role::left_lower_leg},
+    HumanBone{Role::right_upper_leg, Role::right_lower_leg},
+    HumanBone{Role::left_lower_leg, Role::left_foot},
+    HumanBone{Role::right_lower_leg, Role::right_foot},
+    HumanBone{Role::left_foot, Role::left_toes, kFarOfOthers},
+    HumanBone{Role::right_foot, Role::right_toes, kFarOfOthers},
+};
+
+std::uint32_t joint_of(const Model& model, Role role, std::size_t place = 0) {
+    const auto at = std::find_if(model.roles().begin(), model.roles().end(), [&](const JointRole& one) {
+        return static_cast<Role>(one.role) == role && one.place == place;
+    });
+    return at == model.roles().end() ? kNone : at->joint;
+}
+
+bool is_whole(const SharedBone::Ends& ends) {
+    return ends.from != kNone && ends.to != kNone && ends.from != ends.to;
+}
+
+glm::dvec3 way_of(const SharedBone::Ends& ends, Pose& pose) {
+    const auto places = pose.model_space();
+    return glm::dvec3(places[ends.to][3]) - glm::dvec3(places[ends.from][3]);
+}
+
+}  // namespace
+
+std::vector<SharedBone> list_shared_bones(const Retarget& retarget) {
+    std::vector<SharedBone> bones;
+    const Model &source = retarget.source(), &target = retarget.target();
+    const auto add = [&](const SharedBone& bone) {
+        if (is_whole(bone.source) && is_whole(bone.target)) bones.push_back(bone);
+    };
+    for (const HumanBone& bone : kHumanBones) {
+        add({{joint_of(source, bone.from), joint_of(source, bone.to)},
+             {joint_of(target, bone.from), joint_of(target, bone.to)},
+             bone.far});
+    }
+    const auto source_of = [&](std::uint32_t joint) { return joint == kNone ? kNone : retarget.joints()[joint]; };
+    for (const Role leg : {Role::left_hind_leg, Role::right_hind_leg, Role::left_front_leg, Role::right_front_leg}) {
+        for (std::size_t place = 0; place < kUpperBones; ++place) {
+            const SharedBone::Ends ends{joint_of(target, leg, place), joint_of(target, leg, place + 1)};
+            if (is_whole(ends)) add({{source_of(ends.from), source_of(ends.to)}, ends, kFarOfOthers});
+        }
+    }
+    return bones;
+}
+
+double angle_of(const SharedBone& bone, Pose& source, Pose& target, const glm::quat& turn) {
+    const glm::dvec3 a = glm::dquat(turn) * way_of(bone.source, source), b = way_of(bone.target, target);
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+}  // namespace bendy::motion
