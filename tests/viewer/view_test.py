@@ -115,6 +115,24 @@ class Render(WithFolder):
         other = self.render("mannequin", "--size", "160x120", "--clip", "Walk", "--time", "0.6")
         self.assertGreater(difference(plain, other)[0], 0.1)
 
+    def test_the_camera_is_about_the_front_of_whoever_has_roles(self):
+        glb = (SOURCE / "examples/mannequin.glb").read_bytes()
+        length = struct.unpack_from("<I", glb, 12)[0]
+        document = json.loads(glb[20:20 + length])
+        document["nodes"].append({"children": document["scenes"][0]["nodes"], "rotation": [0, 1, 0, 0]})
+        document["scenes"][0]["nodes"] = [len(document["nodes"]) - 1]
+        text = json.dumps(document).encode()
+        text += b" " * (-len(text) % 4)
+        whole = struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(glb) - 20 - length, len(text), 0x4E4F534A) + text
+        (self.folder / "turned.glb").write_bytes(whole + glb[20 + length:])
+        self.assertEqual(bendy("convert", self.folder / "turned.glb", "-q").returncode, 0)
+        done = bendy("edit", self.folder / "turned.bendy", "-o", self.folder / "nobody.bendy", "--strip", "roles")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        view = ("--size", "120x160", "--camera", "60,10")
+        front = self.render("mannequin", *view)
+        self.assertLess(difference(front, self.render("turned", *view))[0], 0.05)
+        self.assertGreater(difference(front, self.render("nobody", *view))[0], 0.5)
+
     def test_full_detail_is_the_default(self):
         one = self.render("mannequin", "--size", "160x120", "--lod", "1")
         self.assertEqual(one, self.render("mannequin", "--size", "160x120"))

@@ -9,6 +9,7 @@
 #include "files/output.h"
 #include "files/progress.h"
 
+#include <bendy/motion/stand.h>
 #include <bendy/runtime.h>
 #include <bendy/viewer/picture.h>
 #include <bendy/viewer/render.h>
@@ -314,6 +315,7 @@ void run(RenderArguments arguments) {
     require_folder_of(arguments.output);
     const CharacterFile file = open_character(arguments.file, arguments.root, outputs, Storage::copied);
     const Model model = read_valid_model(arguments.file, file.bytes());
+    arguments.render.camera.yaw += static_cast<float>(motion::facing(model));
     arguments.render.folders = folders_of(arguments.file, arguments.root);
     note_inputs(arguments, model, outputs);
     try {

@@ -143,4 +143,15 @@ Edited stand_as(Bytes file, Bytes other, edit::Log& log) {
     return turned.write(file, log);
 }
 
+double facing(const Model& model) {
+    constexpr double kStraight = 0.35;  // radians
+    const std::optional<StandingPoseRecord> record = measure(model);
+    if (!record) return 0.0;
+    const auto& [x, y, z, w] = record->axes;
+    const glm::quat axes(w, x, y, z);
+    const glm::dvec3 front(axes * glm::vec3(0.0f, 0.0f, 1.0f));
+    const double angle = std::atan2(front.x, front.z);
+    return std::abs(angle) < kStraight ? 0.0 : angle;
+}
+
 }  // namespace bendy::motion

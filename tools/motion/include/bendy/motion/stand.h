@@ -2,6 +2,7 @@
 
 #include <bendy/edit/edit.h>
 #include <bendy/format/byte_reader.h>
+#include <bendy/runtime/model.h>
 
 #include <string>
 
@@ -16,5 +17,9 @@ edit::Edited stand_as_in_clip(Bytes file, const std::string& clip, double second
 /// Returns the file in which the body stands as another file's character rests, joints by their names. A problem also:
 /// a joint with a role that the other file does not have.
 edit::Edited stand_as(Bytes file, Bytes other, edit::Log& log);
+
+/// Returns by how many radians about Y a character is turned that stands with Y up, as its roles say: 0 if it faces +Z,
+/// up to 20 degrees, or if left is not known.
+double facing(const Model& model);
 
 }  // namespace bendy::motion
