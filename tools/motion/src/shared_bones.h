@@ -18,8 +18,8 @@ struct SharedBone {
     double far = 0.0;  ///< radians: it points elsewhere than the source's if the two are farther apart
 };
 
-/// Returns the trunk, the neck, collarbones, arms, legs and feet of humans, and the legs of animals without the paws,
-/// as far as both bodies have them.
+/// Returns the trunk, the neck, collarbones, arms, legs and feet of humans, and the upper bones of animals' legs, as
+/// far as both bodies have them.
 std::vector<SharedBone> list_shared_bones(const Retarget& retarget);
 
 /// Returns the angle between the directions of a bone in two poses, radians; 0 if it has no length.
