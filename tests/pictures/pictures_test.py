@@ -66,6 +66,7 @@ class Case:
         job = self.job
         pose = ["--clip", str(self.clip), "--time", str(self.time)] if self.clip is not None else []
         for arguments in (["convert", "-q", self.file, "-o", converted],
+                          ["edit", converted, "-i", "-q", "--strip", "roles"],  # which say where the front is: three.js looks along -Z
                           ["render", converted, "-o", out, "--size", f"{job['width']}x{job['height']}",
                            "--camera", f"{job['yaw']},{job['pitch']},{job['distance']}", "--background", BACKGROUND, *pose]):
             done = subprocess.run([bendy, *map(str, arguments)], capture_output=True, text=True, timeout=120, env=SOFTWARE,
