@@ -101,7 +101,7 @@ test('images are decoded at once', { timeout: 10_000 }, async (t) => {
   const waiting = [];
   globalThis.createImageBitmap = () => new Promise((resolve) => waiting.push(resolve));
   const character = new BendyLoader().parseAsync(read(convert(writeTwoImages())));
-  while (waiting.length < 2) await new Promise((resolve) => setTimeout(resolve, 1));
+  while (waiting.length < 2 && !t.signal.aborted) await new Promise((resolve) => setTimeout(resolve, 1));
   for (const resolve of waiting) resolve({ width: 1, height: 1 });
   const { material } = (await character).parts[0].object;
   assert.ok(material.map !== null && material.normalMap !== null);

@@ -263,8 +263,8 @@ constexpr double kFarthestBeyond = 30.0;  // degrees; a limit that clips leave b
 /// Says which clip turns the joint beyond its proposed limit, and how far.
 std::string beyond_of(const Scene& scene, const ProposedConstraint& proposed) {
     if (!proposed.farthest_clip) return "";
-    return "clip " + quote(scene.clips[*proposed.farthest_clip].name) + " turns the joint by " + std::to_string(std::lround(proposed.beyond)) +
-           " degrees more than such a joint can turn";
+    return "clip " + quote(scene.clips[*proposed.farthest_clip].name) + " turns the joint by " +
+           std::to_string(std::lround(proposed.beyond)) + " degrees more than such a joint can turn";
 }
 
 /// Adds limits for joints that have none, and that their clips do not leave by far.
