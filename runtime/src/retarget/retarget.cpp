@@ -111,8 +111,8 @@ const Model& Retarget::target() const {
     return plan_->target;
 }
 
-glm::quat Retarget::turn() const {
-    return glm::quat(plan_->map.turn);
+const glm::dquat& Retarget::turn() const {
+    return plan_->map.turn;
 }
 
 float Retarget::scale() const {

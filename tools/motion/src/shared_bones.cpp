@@ -82,8 +82,8 @@ std::vector<SharedBone> list_shared_bones(const Retarget& retarget) {
     return bones;
 }
 
-double angle_of(const SharedBone& bone, Pose& source, Pose& target, const glm::quat& turn) {
-    const glm::dvec3 a = glm::dquat(turn) * way_of(bone.source, source), b = way_of(bone.target, target);
+double angle_of(const SharedBone& bone, Pose& source, Pose& target, const glm::dquat& turn) {
+    const glm::dvec3 a = turn * way_of(bone.source, source), b = way_of(bone.target, target);
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 

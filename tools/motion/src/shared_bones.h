@@ -24,6 +24,6 @@ std::vector<SharedBone> list_shared_bones(const Retarget& retarget);
 
 /// Returns the angle between the directions of a bone in two poses, radians; 0 if it has no length.
 /// \param turn  see Retarget::turn
-double angle_of(const SharedBone& bone, Pose& source, Pose& target, const glm::quat& turn);
+double angle_of(const SharedBone& bone, Pose& source, Pose& target, const glm::dquat& turn);
 
 }  // namespace bendy::motion

@@ -127,7 +127,7 @@ public:
     [[nodiscard]] const Model& source() const;
     [[nodiscard]] const Model& target() const;
     /// Turns directions from the source's model space to the target's: both bodies' up and front correspond.
-    [[nodiscard]] glm::quat turn() const;
+    [[nodiscard]] const glm::dquat& turn() const;
     /// The target's size as a multiple of the source's, by the length of the legs; where one of the two has none, by
     /// that of the legs' upper bones, the trunk or the arms.
     [[nodiscard]] float scale() const;
