@@ -54,13 +54,12 @@ glm::dvec3 place(const Model& model, std::uint32_t joint) {
 
 TEST(Stand, SaysWhereACharacterFaces) {
     for (const double degrees : {0.0, 90.0, 180.0, -60.0}) {
-        const Result<Model> model = Model::from_memory(file_of(HumanModel(HumanSpec{.facing = degrees, .axes = 3})));
-        ASSERT_TRUE(model);
+        const test::Owned model(file_of(HumanModel(HumanSpec{.facing = degrees, .axes = 3})));
         EXPECT_NEAR(std::remainder(facing(*model) - degrees * M_PI / 180.0, 2.0 * M_PI), 0.0, 1e-5) << degrees;
     }
-    const Result<Model> leaning = Model::from_memory(file_of(HumanModel(HumanSpec{.facing = 12.0})));
+    const test::Owned leaning(file_of(HumanModel(HumanSpec{.facing = 12.0})));
     EXPECT_EQ(facing(*leaning), 0.0);
-    const Result<Model> nobody = Model::from_memory(file_of(HumanModel(HumanSpec{.facing = 90.0, .has_roles = false})));
+    const test::Owned nobody(file_of(HumanModel(HumanSpec{.facing = 90.0, .has_roles = false})));
     EXPECT_EQ(facing(*nobody), 0.0);
 }
 
