@@ -426,7 +426,7 @@ TEST(RetargetClips, BonesThatPointElsewhereThanTheSourcesAreNamedWithTheCause) {
         log.warnings.resize(std::max<std::size_t>(1, log.warnings.size()));
         return log.warnings;
     };
-    EXPECT_EQ(warnings({.axes = 2}, turning(human, {{"leftForeArm", -60.0, y}})), std::vector<std::string>{""});
+    EXPECT_EQ(warnings({.facing = 90.0, .axes = 2}, turning(human, {{"leftForeArm", -60.0, y}}))[0], "");
 
     ConstraintRecord stiff;
     stiff.model = static_cast<std::uint8_t>(ConstraintModel::largest_angle);
@@ -440,8 +440,8 @@ TEST(RetargetClips, BonesThatPointElsewhereThanTheSourcesAreNamedWithTheCause) {
     EXPECT_EQ(
         warnings(hanging, turning(human, {}), {.rest_poses = RestPoses::alike})[0],
         "bones point far from the source's directions in 1 clip, most \"leftForeArm\" by 55 degrees in \"Turn\" at "
-        "0 s; one of the two does not stand at rest or is built otherwise: say with --stand when it stands, or try "
-        "--rests-alike");
+        "0 s; one of the bodies does not stand in its rest pose, or is built differently: --stand says how it stands, "
+        "--rests-alike takes turns from rest");
 
     // Feet of the same length, and legs of less than half: on tiptoe its knees bend.
     const ClipSpec tiptoe = turning(human, {{"leftFoot", 50.0, x}, {"rightFoot", 50.0, x}}, 0.078f);

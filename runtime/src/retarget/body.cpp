@@ -207,7 +207,7 @@ glm::dvec3 Body::find_feet() const {
     double count = 0.0;
     for (const Limb& leg : std::span(limbs_).first(2)) {
         if (leg.joints.empty()) continue;
-        feet += place(leg.joints[std::min(leg.foot, leg.joints.size() - 1)]);
+        feet += place(leg.end());
         count += 1.0;
     }
     return count > 0.0 ? 1.0 / count * feet : hips_;
@@ -234,8 +234,7 @@ glm::dvec3 Body::find_up(const glm::dvec3& feet) const {
     } else {
         for (const Limb& limb : limbs_) {
             if (limb.joints.empty()) continue;
-            const glm::dvec3 end = place(limb.joints[std::min(limb.foot, limb.joints.size() - 1)]);
-            up += (place(limb.upper()) - end) / static_cast<double>(limbs_.size());
+            up += (place(limb.upper()) - place(limb.end())) / static_cast<double>(limbs_.size());
         }
     }
     return snapped(unit_or(up, least_way(), kModelUp), kUpright);

@@ -8,6 +8,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -27,8 +28,10 @@ struct Limb {
     bool is_leg = true;
 
     [[nodiscard]] bool is_whole() const { return joints.size() > foot; }
-    // Only if is_whole():
     [[nodiscard]] std::uint32_t upper() const { return joints.front(); }
+    /// Foot or hand, or else the last joint that is there.
+    [[nodiscard]] std::uint32_t end() const { return joints[std::min(foot, joints.size() - 1)]; }
+    // Only if is_whole():
     [[nodiscard]] std::uint32_t foot_joint() const { return joints[foot]; }
     /// kNone if nothing is below the foot.
     [[nodiscard]] std::uint32_t toes() const { return foot + 1 < joints.size() ? joints.back() : kNone; }
@@ -63,7 +66,7 @@ public:
     /// The half turn of a joint that mirrors, otherwise the identity.
     [[nodiscard]] glm::dquat flip(std::uint32_t joint) const;
 
-    // Of a body with a role, at least:
+    // Only if a joint has a role; measure() first:
     /// Measures the body; returns false if a number is not finite.
     bool measure();
     /// The body's axes, to model space: X left, Y up, Z forward. Where they nearly are axes of model space, they are

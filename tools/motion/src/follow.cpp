@@ -2,7 +2,6 @@
 
 #include "linear_keys.h"
 #include "sample_times.h"
-#include "shared_bones.h"
 
 #include <bendy/motion/retarget_clips.h>
 #include <bendy/runtime/constrain.h>
@@ -70,15 +69,15 @@ std::array<const Curve*, kContacts> contact_curves(const Clip& clip) {
 
 class Following {
 public:
-    Following(Retarget& retarget, const Clip& clip, const RetargetOptions& options)
+    Following(Retarget& retarget, BoneComparison& comparison, const Clip& clip, const RetargetOptions& options)
         : retarget_(retarget),
+          comparison_(comparison),
           clip_(clip),
           options_(options),
           source_(retarget.source()),
           target_(retarget.target()),
           curves_(contact_curves(clip)),
-          bones_(list_shared_bones(retarget)),
-          farthest_(bones_.size()) {
+          farthest_(comparison.bones().size()) {
         result_.kept.resize(retarget.source().joints().size());
         result_.moves.resize(result_.kept.size());
         result_.stretches.resize(result_.kept.size());
@@ -262,7 +261,8 @@ private:
         const auto done = step(seconds, state);
         if (!done) return std::nullopt;
         Sample sample{seconds, *done, frame_of(target_), {}, {}};
-        for (const SharedBone& bone : bones_) sample.off.push_back(angle_of(bone, source_, target_, retarget_.turn()));
+        for (const SharedBone& bone : comparison_.bones())
+            sample.off.push_back(comparison_.angle(bone, source_, target_));
         sample.weights.assign(target_.morph_weights().begin(), target_.morph_weights().end());
         note_source(sample.frame);
         note_kept(sample.frame);
@@ -294,10 +294,10 @@ private:
     }
 
     void note_off(const Sample& sample) {
-        for (std::size_t k = 0; k < bones_.size(); ++k) {
+        for (std::size_t k = 0; k < sample.off.size(); ++k) {
             sum_off_ += sample.off[k];
             if (sample.off[k] <= farthest_[k].angle) continue;
-            farthest_[k] = {bones_[k].target.from, sample.off[k], sample.seconds};
+            farthest_[k] = {comparison_.bones()[k].target.from, sample.off[k], sample.seconds};
         }
     }
 
@@ -306,28 +306,14 @@ private:
         const auto farther = [](FarthestOff& most, const FarthestOff& one) {
             if (one.angle > most.angle) most = one;
         };
-        for (std::size_t k = 0; k < bones_.size(); ++k) {
+        const std::vector<SharedBone>& bones = comparison_.bones();
+        for (std::size_t k = 0; k < bones.size(); ++k) {
             farther(result_.farthest_off, farthest_[k]);
-            if (farthest_[k].angle <= bones_[k].far) continue;
-            farther(result_.far_off[static_cast<std::size_t>(cause_of(bones_[k], farthest_[k].seconds))], farthest_[k]);
+            if (farthest_[k].angle <= bones[k].far || !sample(source_, &clip_, farthest_[k].seconds)) continue;
+            const Cause cause = comparison_.find_cause(bones[k], source_, target_);
+            farther(result_.far_off[static_cast<std::size_t>(cause)], farthest_[k]);
         }
-        if (!bones_.empty()) result_.mean_off = sum_off_ / static_cast<double>(bones_.size() * times_.size());
-    }
-
-    /// Finds out by leaving limits and ground away.
-    Cause cause_of(const SharedBone& bone, float seconds) {
-        const auto is_off = [&](bool obeys) {
-            RetargetOptions options = options_;
-            options.obey_constraints = obeys;
-            options.plants_feet = false;
-            auto other = Retarget::make(retarget_.source(), retarget_.target(), options);
-            RetargetState state;
-            if (!other || !sample(source_, &clip_, seconds)) return false;
-            if (!bendy::retarget(target_, *other, source_, state)) return false;
-            return angle_of(bone, source_, target_, retarget_.turn()) > bone.far;
-        };
-        if (is_off(false)) return Cause::rests;
-        return options_.obey_constraints && is_off(true) ? Cause::limits : Cause::ground;
+        if (!bones.empty()) result_.mean_off = sum_off_ / static_cast<double>(bones.size() * times_.size());
     }
 
     void note_source(const Frame& frame) {
@@ -491,6 +477,7 @@ private:
     }
 
     Retarget& retarget_;
+    BoneComparison& comparison_;
     const Clip& clip_;
     RetargetOptions options_;
     Pose source_, target_;
@@ -498,8 +485,7 @@ private:
     std::vector<float> times_;
     std::size_t most_ = 0;  // samples
     std::vector<Frame> frames_, between_;
-    Frame first_;  // of the source
-    std::vector<SharedBone> bones_;
+    Frame first_;                        // of the source
     std::vector<FarthestOff> farthest_;  // by shared bone
     double sum_off_ = 0.0;               // radians, of all bones in all frames
     std::vector<std::vector<float>> weights_;
@@ -511,9 +497,9 @@ private:
 
 }  // namespace
 
-std::optional<Followed> follow(Retarget& retarget, const Clip& clip, const RetargetOptions& options,
-                               const std::vector<std::uint32_t>& sampled_meshes) {
-    return Following(retarget, clip, options).run(sampled_meshes);
+std::optional<Followed> follow(Retarget& retarget, BoneComparison& comparison, const Clip& clip,
+                               const RetargetOptions& options, const std::vector<std::uint32_t>& sampled_meshes) {
+    return Following(retarget, comparison, clip, options).run(sampled_meshes);
 }
 
 }  // namespace bendy::motion

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "bone_comparison.h"
+
 #include <bendy/format/packed_clip.h>
 #include <bendy/runtime/model.h>
 #include <bendy/runtime/retarget.h>
@@ -24,14 +26,6 @@ struct Held {
     double angle = 0.0;  ///< radians, most
     float seconds = 0.0f;
 };
-
-/// Why a bone points elsewhere than the source's.
-enum class Cause : std::uint8_t {
-    rests,   ///< it does so without limits and ground, too: a standing pose is wrong, or the bodies are unlike
-    limits,  ///< limits of the target
-    ground,  ///< a foot that is held on the ground
-};
-inline constexpr std::size_t kCauses = 3;
 
 /// The bone that is farthest off the source's direction, of those for the same cause.
 struct FarthestOff {
@@ -66,8 +60,8 @@ struct Followed {
 /// Plays the clip on the target. Nothing, if a number is not finite.
 /// \param options         those of `retarget`
 /// \param sampled_meshes  meshes of the target whose weights become tracks
-std::optional<Followed> follow(Retarget& retarget, const Clip& clip, const RetargetOptions& options,
-                               const std::vector<std::uint32_t>& sampled_meshes);
+std::optional<Followed> follow(Retarget& retarget, BoneComparison& comparison, const Clip& clip,
+                               const RetargetOptions& options, const std::vector<std::uint32_t>& sampled_meshes);
 
 inline constexpr const char* kContactNames[kContacts] = {
     "left_heel_contact",       "left_toes_contact",       "right_heel_contact",       "right_toes_contact",

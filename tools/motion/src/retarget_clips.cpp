@@ -84,7 +84,7 @@ Problem explain(const RetargetError& error, const Model& source, const Model& ta
     return {text + R"(, as in {"bendy_rig": 1, "roles": {"hips": "NAME"}})"};
 }
 
-/// What is doubtful in some of the clips.
+/// In how many clips something is far from the source's motion, and where it is worst.
 struct Doubt {
     std::size_t clips = 0;
     std::uint32_t joint = kNone;  ///< of the target, in the worst clip
@@ -109,6 +109,7 @@ class ClipRetargeting {
 public:
     ClipRetargeting(Retarget retarget, const RetargetClips& options, Log& log)
         : retarget_(std::move(retarget)),
+          comparison_(retarget_, options.retarget),
           source_(retarget_.source()),
           target_(retarget_.target()),
           options_(options),
@@ -127,7 +128,7 @@ public:
                 useless.push_back(number);
                 continue;
             }
-            auto followed = follow(retarget_, clip, options_.retarget, sampled_);
+            auto followed = follow(retarget_, comparison_, clip, options_.retarget, sampled_);
             if (!followed) return Problem{"clip " + quoted(clip.name, number) + " has numbers that are not finite"};
             put(number, *std::move(followed));
         }
@@ -297,7 +298,7 @@ private:
         return text;
     }
 
-    /// What is worse in a clip than a viewer would take for the source's motion.
+    /// Counts the clip for each way in which it is visibly unlike the source's.
     void collect_doubts(std::size_t clip, const Followed& followed) {
         for (std::size_t cause = 0; cause < kCauses; ++cause) {
             const FarthestOff& off = followed.far_off[cause];
@@ -311,8 +312,8 @@ private:
     void warn_of_doubts() {
         const std::string most = " far from the source's directions in ";
         tell(doubts_[static_cast<std::size_t>(Cause::rests)], "bones point" + most, degrees,
-             "one of the two does not stand at rest or is built otherwise: say with --stand when it stands, or try "
-             "--rests-alike");
+             "one of the bodies does not stand in its rest pose, or is built differently: --stand says how it stands, "
+             "--rests-alike takes turns from rest");
         tell(doubts_[static_cast<std::size_t>(Cause::limits)], "limits turn bones" + most, degrees,
              "--ignore-constraints goes beyond them");
         tell(doubts_[static_cast<std::size_t>(Cause::ground)], "feet on the ground turn legs" + most, degrees,
@@ -321,8 +322,7 @@ private:
         const auto of_leg = [leg](double metres) {
             return millimetres(metres) + with(", %.0f %% of the leg,", 100.0 * metres / leg);
         };
-        tell(missed_, "feet or hands miss their places in ", of_leg,
-             "--ignore-constraints and --free-feet say what may give way");
+        tell(missed_, "feet or hands miss their places in ", of_leg, "try --ignore-constraints or --free-feet");
         tell(lowered_, "the hips are lowered, so that feet reach the ground, in ", of_leg, "--free-feet leaves them");
     }
 
@@ -409,6 +409,7 @@ private:
     }
 
     Retarget retarget_;
+    BoneComparison comparison_;
     Model source_, target_;
     const RetargetClips& options_;
     Log& log_;

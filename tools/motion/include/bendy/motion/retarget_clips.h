@@ -32,8 +32,8 @@ struct RetargetClips {
 /// them, they are taken from it and are not looked for.
 ///
 /// A clip that animates nothing that has a counterpart is left out with a warning. A problem, if none is left: no
-/// clips, no clip of that name, a character that is no human or lacks a role, a name that exists already, numbers that
-/// are not finite.
+/// clips, no clip of that name, a character without roles, bodies of different kinds, a name that exists already,
+/// numbers that are not finite.
 edit::Edited retarget_clips(Bytes file, Bytes other, const RetargetClips& options, edit::Log& log);
 
 inline constexpr double kMostTurned = 0.00004;  ///< radians

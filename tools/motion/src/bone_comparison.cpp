@@ -1,4 +1,4 @@
-#include "shared_bones.h"
+#include "bone_comparison.h"
 
 #include <bendy/format/role.h>
 
@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace bendy::motion {
 namespace {
@@ -18,7 +19,8 @@ namespace {
 /// differ by up to 48 degrees between makers (docs/decisions/0070).
 constexpr double kFarOfLimb = 0.35, kFarOfOthers = 0.87;  // radians: 20 and 50 degrees
 
-/// Of an animal's leg: where the foot begins below them is not the same in every family, and it is only held level.
+/// Bones of an animal's leg that are compared. Below them the foot begins, in one family higher than in another; it is
+/// only held level.
 constexpr std::size_t kUpperBones = 2;
 
 struct HumanBone {
@@ -59,8 +61,6 @@ glm::dvec3 way_of(const SharedBone::Ends& ends, Pose& pose) {
     return glm::dvec3(places[ends.to][3]) - glm::dvec3(places[ends.from][3]);
 }
 
-}  // namespace
-
 std::vector<SharedBone> list_shared_bones(const Retarget& retarget) {
     std::vector<SharedBone> bones;
     const Model &source = retarget.source(), &target = retarget.target();
@@ -82,9 +82,33 @@ std::vector<SharedBone> list_shared_bones(const Retarget& retarget) {
     return bones;
 }
 
-double angle_of(const SharedBone& bone, Pose& source, Pose& target, const glm::dquat& turn) {
-    const glm::dvec3 a = turn * way_of(bone.source, source), b = way_of(bone.target, target);
+}  // namespace
+
+BoneComparison::BoneComparison(const Retarget& retarget, const RetargetOptions& options)
+    : retarget_(retarget), options_(options), bones_(list_shared_bones(retarget)) {}
+
+double BoneComparison::angle(const SharedBone& bone, Pose& source, Pose& target) const {
+    const glm::dvec3 a = retarget_.turn() * way_of(bone.source, source), b = way_of(bone.target, target);
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+Cause BoneComparison::find_cause(const SharedBone& bone, Pose& source, Pose& target) {
+    if (is_far(bone, source, target, false)) return Cause::rests;
+    return options_.obey_constraints && is_far(bone, source, target, true) ? Cause::limits : Cause::ground;
+}
+
+bool BoneComparison::is_far(const SharedBone& bone, Pose& source, Pose& target, bool obeys_constraints) {
+    std::optional<Retarget>& other = without_ground_[obeys_constraints ? 1 : 0];
+    if (!other) {
+        RetargetOptions options = options_;
+        options.obey_constraints = obeys_constraints;
+        options.plants_feet = false;
+        auto made = Retarget::make(retarget_.source(), retarget_.target(), options);
+        if (!made) return false;
+        other = *std::move(made);
+    }
+    RetargetState state;
+    return retarget(target, *other, source, state) && angle(bone, source, target) > bone.far;
 }
 
 }  // namespace bendy::motion
