@@ -123,6 +123,32 @@ def test_retargeting_of_files_says_what_is_wrong(mannequin, tall):
     assert bytes(edit.data) == tall.read_bytes() and edit.done == edit.warnings == []
 
 
+def test_how_the_body_stands_is_told(mannequin, tmp_path):
+    def turned(source):
+        return [chunk.fields for chunk in bendy.inspect(source).walk() if chunk.id == "STND"]
+
+    told = bendy.edit(mannequin).stand("Walk", 0.35)
+    assert told.done[0].startswith("the body stands as told") and len(turned(told)) == 1
+    model = told.open()
+    frame, standing = model.sample("Walk", 0.35), model.pose().stand()
+    hips = model.joints["mixamorig:Hips"].number
+    assert numpy.allclose(abs(standing.rotations[hips] @ frame.rotations[hips]), 1, atol=1e-5)
+    again = bendy.edit(mannequin).stand_as(told)
+    assert turned(again) != turned(told), "it is the rest pose that is taken"
+    with pytest.raises(ValueError, match="input"):
+        again.save(mannequin, overwrite=True)
+    assert bytes(told.strip("standing-pose").data) == bytes(bendy.edit(mannequin).data)
+    for call, message in [
+        (lambda edit: edit.stand("Walk", 9), "is from 0"),
+        (lambda edit: edit.stand("Wlak", 0), "Wlak"),
+        (lambda edit: edit.stand_as(ROOT / "examples/tentacle.glb"), "has no joint"),
+    ]:
+        edit = bendy.edit(mannequin)
+        with pytest.raises(bendy.EditError, match=message):
+            call(edit)
+        assert bytes(edit.data) == mannequin.read_bytes() and edit.done == []
+
+
 def test_roles_are_given(mannequin):
     edit = bendy.edit(mannequin).set_role("hips", None).set_role("tail:2", "mixamorig:Spine")
     roles = {joint.name: (joint.role, joint.role_place) for joint in edit.open().joints}

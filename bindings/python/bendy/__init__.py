@@ -197,6 +197,17 @@ class Edit(File):
         is it. Raises ValueError for another word."""
         return self._take(_bendy.set_role(self._source, f"{role}={'' if joint is None else joint}"))
 
+    def stand(self, clip, seconds):
+        """Says that the body stands upright at this time of a clip: retargeting measures from that pose, not from the rest pose.
+        strip("standing-pose") takes it back. A clip is a name, a pattern as in "Walk*", or a number."""
+        return self._take(_bendy.stand(self._source, str(clip), float(seconds)))
+
+    def stand_as(self, other):
+        """Says that the body stands as the character of another source rests; joints are found there by their names."""
+        self._take(_bendy.stand_as(self._source, _bendy_source(other)))
+        self._inputs = [*self._inputs, other]
+        return self
+
     def set_material(self, material, field, value):
         """Changes a field of a material's SURF record: set_material("Wood", "roughness", 0.4), set_material("*", "base_colour", (1, 0.5, 0, 1)),
         set_material("Wood", "alpha_mode", "blend"), set_material("Wood", "normal_texture.texture", None). Raises EditError for another

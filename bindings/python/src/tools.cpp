@@ -19,6 +19,7 @@
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/document.h>
 #include <bendy/motion/retarget_clips.h>
+#include <bendy/motion/stand.h>
 #include <bendy/runtime/lod.h>
 #include <bendy/text_form/text_form.h>
 
@@ -294,6 +295,16 @@ py::tuple set_role(const SourcePointer& source, const std::string& text) {
     return edited(source, [&](Bytes bytes, edit::Log& log) { return edit::set_role(bytes, *what, log); });
 }
 
+py::tuple stand_in_clip(const SourcePointer& source, const std::string& clip, double seconds) {
+    return edited(source,
+                  [&](Bytes bytes, edit::Log& log) { return motion::stand_as_in_clip(bytes, clip, seconds, log); });
+}
+
+py::tuple stand_as(const SourcePointer& source, const SourcePointer& other) {
+    require_bendy(*other);
+    return edited(source, [&](Bytes bytes, edit::Log& log) { return motion::stand_as(bytes, other->bytes(), log); });
+}
+
 py::tuple set_material(const SourcePointer& source, const std::string& material, const std::string& field,
                        const std::string& value) {
     return edited(source, [&](Bytes bytes, edit::Log& log) {
@@ -496,6 +507,9 @@ void bind_tools(py::module_& module) {
     module.def("retarget_clips", &retarget_clips, py::arg("source"), py::arg("other"), py::arg("clip"),
                py::arg("same_name"), py::arg("options"), "See bendy.Edit.retarget_clips.");
     module.def("set_role", &set_role, py::arg("source"), py::arg("text"), "See bendy.Edit.set_role.");
+    module.def("stand", &stand_in_clip, py::arg("source"), py::arg("clip"), py::arg("seconds"),
+               "See bendy.Edit.stand.");
+    module.def("stand_as", &stand_as, py::arg("source"), py::arg("other"), "See bendy.Edit.stand_as.");
     module.def("set_material", &set_material, py::arg("source"), py::arg("material"), py::arg("field"),
                py::arg("value"), "See bendy.Edit.set_material.");
     module.def("extract", &extract_joint, py::arg("source"), py::arg("joint"), "See bendy.Edit.extract.");

@@ -264,6 +264,18 @@ test('clips are retargeted as by the program', async () => {
     assertSameBytes(edited.bytes, nativeBytes('.bendy', 'edit', '-q', tall, ...args), args.join(' '));
     assert.ok(edited.done.some((line) => line.startsWith('retargeted clip "Walk"') && line.includes('off by')), edited.done.join());
   }
+  for (const [{ bytes: told, done }, args] of [
+    [await tools.stand(source, 'Walk', 0.35), ['--stand', 'Walk@0.35']],
+    [await tools.stand(source, 1, 0), ['--stand', '1@0']],
+    [await tools.standAs(source, bytes), ['--stand-as', tall]],
+  ]) {
+    assertSameBytes(told, nativeBytes('.bendy', 'edit', '-q', exact, ...args), args.join(' '));
+    assert.match(done.join(), /stands as told/);
+    assertSameBytes((await tools.strip(told, 'standing-pose')).bytes, source);
+  }
+  await assert.rejects(tools.stand(source, 'Walk', 9), { kind: 'edit', message: /is from 0/ });
+  await assert.rejects(tools.stand(source, 'Walk'), { kind: 'bad_argument', message: /seconds/ });
+  await assert.rejects(tools.standAs(bytes, read(join(repository, 'examples/mannequin.glb'))), { kind: 'malformed' });
   await assert.rejects(tools.retargetClips(bytes, source), { kind: 'edit', message: /"Idle"/ });
   await assert.rejects(tools.retargetClips(bytes, source, { obeyconstraints: false }), { message: /did you mean obeyConstraints/ });
   await assert.rejects(tools.retargetClips(bytes, source, { clip: 'Wlak' }), { kind: 'edit', message: /Wlak/ });

@@ -22,6 +22,7 @@
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
 #include <bendy/motion/retarget_clips.h>
+#include <bendy/motion/stand.h>
 #include <bendy/runtime.h>
 #include <bendy/text_form/text_form.h>
 
@@ -311,6 +312,19 @@ Json run_set_role(const Json& request, Made& made) {
     return edited(request, made, [&](Bytes bytes, edit::Log& log) { return edit::set_role(bytes, what, log); });
 }
 
+Json run_stand(const Json& request, Made& made) {
+    const std::string clip = text_of(request, "clip");
+    const auto seconds = request.at("seconds").get<double>();
+    return edited(request, made,
+                  [&](Bytes bytes, edit::Log& log) { return motion::stand_as_in_clip(bytes, clip, seconds, log); });
+}
+
+Json run_stand_as(const Json& request, Made& made) {
+    const MappedFile other = map_bendy(text_of(request, "other"));
+    return edited(request, made,
+                  [&](Bytes bytes, edit::Log& log) { return motion::stand_as(bytes, other.bytes(), log); });
+}
+
 Json run_set_material(const Json& request, Made& made) {
     const edit::SetMaterial what{text_of(request, "material"), text_of(request, "field"), text_of(request, "value")};
     return edited(request, made, [&](Bytes bytes, edit::Log& log) { return edit::set_material(bytes, what, log); });
@@ -428,6 +442,8 @@ constexpr std::array kTools{Tool{"convert", run_convert},
                             Tool{"retargetClips", run_retarget_clips},
                             Tool{"setMaterial", run_set_material},
                             Tool{"setRole", run_set_role},
+                            Tool{"stand", run_stand},
+                            Tool{"standAs", run_stand_as},
                             Tool{"extract", run_extract},
                             Tool{"changeClips", run_change_clips},
                             Tool{"limitInfluences", run_limit_influences},

@@ -10,6 +10,7 @@
 import { asBytes } from '../bytes.js';
 import { BendyError, described } from '../errors.js';
 import { programOptions } from '../generated/convert_options.js';
+import { checkNumber } from '../numbers.js';
 import { checkOptions, optionNames } from '../options.js';
 import { type Inputs, runTool } from './module.js';
 import type {
@@ -215,6 +216,19 @@ export async function retargetClips(bytes: FileBytes, other: FileBytes, options:
  */
 export function setRole(bytes: FileBytes, role: string, joint: string | null): Promise<Edited> {
   return edited({ do: 'setRole', text: `${role}=${joint ?? ''}` }, { 'a.bendy': asBytes(bytes) });
+}
+
+/**
+ * Says that the body stands upright at this time of a clip, a name or a number: retargeting measures from that pose, not from the rest
+ * pose. `strip(bytes, 'standing-pose')` takes it back.
+ */
+export async function stand(bytes: FileBytes, clip: string | number, seconds: number): Promise<Edited> {
+  return edited({ do: 'stand', clip: String(clip), seconds: checkNumber(seconds, 'seconds') }, { 'a.bendy': asBytes(bytes) });
+}
+
+/** Says that the body stands as the character of another bendy file rests; joints are found there by their names. */
+export function standAs(bytes: FileBytes, other: FileBytes): Promise<Edited> {
+  return edited({ do: 'standAs', other: 'b.bendy' }, { 'a.bendy': asBytes(bytes), 'b.bendy': asBytes(other) });
 }
 
 /**
