@@ -130,6 +130,20 @@ def walk(frames=12):
     return WALKER + f"MOTION\nFrames: {frames}\nFrame Time: .0333333\n" + "\n".join(lines) + "\n"
 
 
+def with_a_knee():
+    """The character at rest, with a knee between LeftUpLeg and LeftLeg that alone moves, by 60 degrees."""
+    shin = "      JOINT LeftLeg\n"
+    knee = "      JOINT Knee\n      {\n        OFFSET 0 -42 1\n        CHANNELS 1 Xrotation\n"
+    end = "  JOINT RHipJoint\n"
+    tree = WALKER.replace(shin, knee + shin).replace("OFFSET 0 -42 1\n        CHANNELS 3", "OFFSET 0 -1 0\n        CHANNELS 3", 1)
+    tree = tree.replace(end, "  }\n" + end)
+    before = re.findall(r"[XYZ](?:position|rotation)", tree[:tree.index("JOINT Knee")])
+    channels = re.findall(r"[XYZ](?:position|rotation)", tree)
+    frames = [[angle if number == len(before) else 95 if number == 1 else 0 for number in range(len(channels))]
+              for angle in (0, 60, 30)]
+    return tree + "MOTION\nFrames: 3\nFrame Time: .1\n" + "".join(" ".join(map(str, frame)) + "\n" for frame in frames)
+
+
 def turn(axis, degrees):
     """The 3 x 3 matrix of a turn about X, Y or Z."""
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))

@@ -19,7 +19,7 @@ from jsonschema import Draft202012Validator
 
 sys.dont_write_bytecode = True  # nothing into the source tree
 sys.path.insert(0, str(Path(__file__).parent))
-from bvh_file import Bvh, walk  # noqa: E402
+from bvh_file import Bvh, walk, with_a_knee  # noqa: E402
 from chunk_file import Chunk  # noqa: E402
 from md2_file import Md2, md2_file, player_names, tube_md2  # noqa: E402
 from mesh_file import read_obj  # noqa: E402
@@ -301,6 +301,15 @@ class BiovisionFiles(Case):
         self.assertEqual([roles[role] for role in ("hips", "left_upper_leg", "left_lower_leg", "right_hand")],
                          ["Hips", "LeftUpLeg", "LeftLeg", "RightHand"])
         self.assertIn("BVH files only", self.failed("convert", "walk.bendy", "--unit", "1", "-o", "x.bendy", file="walk.bendy"))
+
+    def test_a_joint_that_moves_in_place_of_the_shin_is_named_and_its_advice_mends_it(self):
+        path = self.folder / "walk.bvh"
+        path.write_text(with_a_knee())
+        warning = self.bendy("convert", path, "--unit", "0.01").stderr.decode()
+        self.assertIn("joint 'Knee' has no role but swings by 60 degrees; the left_lower_leg, 'LeftLeg', turns by 0", warning)
+        (self.folder / "knee.json").write_text(warning[warning.index("{"):])
+        self.assertEqual(self.bendy("convert", path, "--unit", "0.01", "--rig", "knee.json", "-o", "out.bendy").stderr, b"")
+        self.assertEqual(json.loads(self.done("rig", "out.bendy"))["roles"]["left_lower_leg"], "Knee")
 
     def test_what_is_wrong_has_its_line(self):
         (self.folder / "bad.bvh").write_text(walk().replace("OFFSET 0 10 0", "OFFSET 0 ten 0", 1))

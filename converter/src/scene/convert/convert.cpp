@@ -7,6 +7,7 @@
 #include "optimise/passes/drop_unused.h"
 #include "optimise/passes/merge_clips.h"
 #include "rigging/humanoid/find_roles.h"
+#include "rigging/humanoid/missing_roles.h"
 #include "rigging/rig/attach_rig.h"
 #include "rigging/rig/clips.h"
 #include "rigging/rig/parse_rig.h"
@@ -150,6 +151,7 @@ Result<Scene, ImportError> import_source(std::optional<Buffer> source, const std
     const JointIndex index(*scene);
     if (!rig || !rig->complete || !rig->roles) find_roles(*scene, rig ? find_hips(*rig, index) : kNone, report);
     if (rig) attach_roles(*scene, *rig, index);
+    warn_of_missing_roles(*scene, report);
     if (rig) attach_standing_pose(*scene, *rig, index);
     orient(*scene, importer.takes_unit ? options.up : SourceUp::y, options.faces_front, report);
     if (!rig || !rig->has_standing_pose) find_standing_pose(*scene, report);
