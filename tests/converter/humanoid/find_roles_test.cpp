@@ -428,6 +428,48 @@ TEST(FindRoles, ARobotMayHaveNoArms) {
     EXPECT_EQ(roles_of(robot), Roles());
 }
 
+/// A toy whose limbs have one joint each, and a mesh whose legs go this way.
+/// \param unknown  a bone whose name says nothing
+Scene make_toy(const glm::vec3& leg, const std::string& unknown = "") {
+    HumanoidGltf toy;
+    std::erase_if(toy.bones, [](const HumanoidGltf::Bone& bone) {
+        const auto has = [&](const char* word) { return bone.name.find(word) != std::string::npos; };
+        return has("Lower") || has("Hand") || has("Foot") || has("Toes") || has("Shoulder") || has("chest") ||
+               has("neck");
+    });
+    for (const std::string side : {"left", "right"}) {
+        toy.names[side + "UpperArm"] = side + "Arm";
+        toy.names[side + "UpperLeg"] = side + "Leg";
+        toy[side + "UpperArm"].parent = "spine";
+    }
+    toy["head"].parent = "spine";
+    if (!unknown.empty()) toy.names[unknown] = "thing";
+    Scene scene = *toy.build().import();
+    bind_at_rest(scene);
+    Mesh& mesh = scene.meshes[0];
+    const RestFrames rest(scene);
+    for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
+        if (!scene.joints[joint].name.ends_with("Leg") || leg == glm::vec3(0.0f)) continue;
+        mesh.positions.emplace_back(glm::vec3(rest.position(joint)) + leg);
+        mesh.bones.push_back(static_cast<std::uint16_t>(joint));
+        mesh.weights.push_back(1.0f);
+    }
+    return scene;
+}
+
+/// Where its arms point, joints do not say: they have no roles.
+TEST(FindRoles, LimbsOfAToyHaveOneJoint) {
+    const glm::vec3 down(0.0f, -0.9f, 0.05f);
+    EXPECT_EQ(roles_of(make_toy(down)), (Roles{{"hips", "hips"},
+                                               {"spine", "spine"},
+                                               {"head", "head"},
+                                               {"left_upper_leg", "leftLeg"},
+                                               {"right_upper_leg", "rightLeg"}}));
+    EXPECT_EQ(roles_of(make_toy({0.0f, 0.0f, -0.9f})), Roles()) << "its legs go backward";
+    EXPECT_EQ(roles_of(make_toy({0.0f, 0.0f, 0.0f})), Roles()) << "nothing shows where its legs go";
+    for (const char* unknown : {"rightUpperArm", "leftUpperLeg"}) EXPECT_EQ(roles_of(make_toy(down, unknown)), Roles());
+}
+
 TEST(FindRoles, TailsAndWingsOfAHuman) {
     HumanoidGltf demon;
     demon.add("tail1", "hips", {0, 0.95, -0.1});

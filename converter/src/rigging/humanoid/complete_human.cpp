@@ -27,6 +27,7 @@ public:
             if (bones_.has(bones_of(limb).lower)) add_end(limb);
         }
         if (!find_hips() || !find_trunk()) return std::nullopt;
+        if (is_block(Limb::left_arm)) drop_arms();
         add_details(scene_, rest_, bones_);
         return bones_;
     }
@@ -38,20 +39,35 @@ private:
     }
     [[nodiscard]] bool is_wing(Role arm) const { return NameWords(scene_.joints[bones_[arm]].name).has("wing"); }
 
+    /// Whether neither the limb nor its counterpart has a second bone.
+    [[nodiscard]] bool is_block(Limb limb) const {
+        const bool is_arm = limb == Limb::left_arm || limb == Limb::right_arm;
+        const HumanBone lower = is_arm ? HumanBone::left_lower_arm : HumanBone::left_lower_leg;
+        return !bones_.has(lower) && !bones_.has(mirrored(lower));
+    }
+    /// Joints alone do not say where arms of one joint point, and clips of others would turn them from anywhere; such
+    /// legs point down.
+    void drop_arms() { bones_[Role::left_upper_arm] = bones_[Role::right_upper_arm] = kNone; }
     [[nodiscard]] bool has_arms() const { return bones_.has(Role::left_upper_arm); }
 
-    /// A robot may lack both arms, but a body with one arm, or with two legs and wings, is not a human.
+    /// A robot may lack both arms, but a body with one arm, or with two legs and wings, is not a human. Limbs of a toy
+    /// have one joint; its legs show by their mesh that it stands on them.
     [[nodiscard]] bool has_limbs() const {
         bool has_any_arm = false;
         for (const Role bone :
              {Role::left_upper_arm, Role::left_lower_arm, Role::right_upper_arm, Role::right_lower_arm})
             has_any_arm = has_any_arm || bones_.has(bone);
-        if (!has_any_arm && !find_wing(scene_, BodySide::left).empty()) return false;
+        if (!has_any_arm && (is_block(Limb::left_leg) || !find_wing(scene_, BodySide::left).empty())) return false;
         for (const Limb limb : {Limb::left_arm, Limb::right_arm, Limb::left_leg, Limb::right_leg}) {
             if (!has_any_arm && (limb == Limb::left_arm || limb == Limb::right_arm)) continue;
             const LimbBones of_limb = bones_of(limb);
-            if (!bones_.has(of_limb.upper) || !bones_.has(of_limb.lower)) return false;
-            if (is_wing(of_limb.upper) || is_wing(of_limb.lower)) return false;
+            if (!bones_.has(of_limb.upper) || is_wing(of_limb.upper)) return false;
+            if (is_block(limb)) {
+                const bool is_leg = limb == Limb::left_leg || limb == Limb::right_leg;
+                if (is_leg && !end_of(found_, rest_, limb)) return false;
+                continue;
+            }
+            if (!bones_.has(of_limb.lower) || is_wing(of_limb.lower)) return false;
             if (!rest_.is_below(bones_[of_limb.lower], bones_[of_limb.upper])) return false;
             if (!rest_.direction(bones_[of_limb.upper], bones_[of_limb.lower])) return false;
         }
@@ -80,7 +96,9 @@ private:
         const std::vector<std::uint32_t> legs{bones_[Role::left_upper_leg], bones_[Role::right_upper_leg]};
         const std::uint32_t head = bones_[Role::head];
         const glm::dvec3 between = 0.5 * (rest_.position(legs[0]) + rest_.position(legs[1]));
-        const double thigh = glm::distance(rest_.position(legs[0]), rest_.position(bones_[Role::left_lower_leg]));
+        const double thigh = is_block(Limb::left_leg)
+                                 ? 0.5 * glm::distance(rest_.position(legs[0]), *end_of(found_, rest_, Limb::left_leg))
+                                 : glm::distance(rest_.position(legs[0]), rest_.position(bones_[Role::left_lower_leg]));
         const auto is_near = [&](std::uint32_t joint) {
             return joint != kNone && glm::distance(rest_.position(joint), between) < 1.5 * thigh;
         };

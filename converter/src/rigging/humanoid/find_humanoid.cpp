@@ -131,6 +131,8 @@ public:
             find_arm(side);
             find_leg(side);
         }
+        find_blocks({BodyPart::upper_arm, BodyPart::arm}, HumanBone::left_upper_arm);
+        find_blocks({BodyPart::upper_leg, BodyPart::leg}, HumanBone::left_upper_leg);
         find_trunk();
         return found_;
     }
@@ -250,6 +252,21 @@ private:
         if (foot != kNone) found_.bones[of_side(HumanBone::left_toes, side)] = pick(BodyPart::toes, side, foot);
     }
 
+    /// Limbs of one joint, as toys have them: a pair of clear names of which neither side has two bones.
+    void find_blocks(std::initializer_list<BodyPart> parts, HumanBone left) {
+        if (found_.bones.has(left) || found_.bones.has(mirrored(left))) return;
+        for (const BodyPart part : parts) {
+            const std::uint32_t on_left = pick(part, BodySide::left);
+            const std::uint32_t on_right = pick(part, BodySide::right);
+            const auto is_clear = [&](std::uint32_t joint) { return joint != kNone && names_[joint]->rank == 0; };
+            if (!is_clear(on_left) || !is_clear(on_right)) continue;
+            found_.bones[left] = on_left;
+            found_.bones[mirrored(left)] = on_right;
+            found_.has_front_legs = found_.has_front_legs || names_[on_left]->is_front_leg;
+            return;
+        }
+    }
+
     /// The lowest common ancestor, kNone if there is none.
     [[nodiscard]] std::uint32_t common_ancestor(HumanBone a, HumanBone b) const {
         if (!found_.bones.has(a) || !found_.bones.has(b)) return kNone;
@@ -356,8 +373,9 @@ std::optional<glm::dvec3> end_of(const NamedHumanoid& found, const RestFrames& r
 void find_mesh_ends(const Scene& scene, const RestFrames& rest, NamedHumanoid& found) {
     for (std::size_t limb = 0; limb < kLimbs; ++limb) {
         const LimbBones bones = bones_of(static_cast<Limb>(limb));
-        if (!found.bones.has(bones.lower) || end_of(found, rest, static_cast<Limb>(limb))) continue;
-        found.mesh_ends[limb] = find_mesh_end(scene, rest, found.bones[bones.lower]);
+        const std::uint32_t last = found.bones[found.bones.has(bones.lower) ? bones.lower : bones.upper];
+        if (last == kNone || end_of(found, rest, static_cast<Limb>(limb))) continue;
+        found.mesh_ends[limb] = find_mesh_end(scene, rest, last);
     }
 }
 

@@ -61,8 +61,8 @@ std::optional<glm::dvec3> end_of(const NamedHumanoid& found, const RestFrames& r
 void find_mesh_ends(const Scene& scene, const RestFrames& rest, NamedHumanoid& found);
 
 /// Finds limbs, spine and head by name. A limb's bones are descendants of one another, with other joints between them
-/// allowed. Of several matching joints, one that moves vertices, or has descendants that do, is preferred to a control,
-/// and then the one nearest the root.
+/// allowed; a pair of limbs may have an upper bone only. Of several matching joints, one that moves vertices, or has
+/// descendants that do, is preferred to a control, and then the one nearest the root.
 /// \param chosen  by joint: only these are considered
 NamedHumanoid find_humanoid(const Scene& scene, const RestFrames& rest, const std::vector<bool>& chosen);
 

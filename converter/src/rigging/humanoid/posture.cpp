@@ -51,8 +51,9 @@ private:
         glm::dvec3 sum(0.0);
         for (const Limb leg : {Limb::left_leg, Limb::right_leg}) {
             const LimbBones bones = bones_of(leg);
-            if (!found_.bones.has(bones.upper) || !found_.bones.has(bones.lower)) continue;
+            if (!found_.bones.has(bones.upper)) continue;
             const std::optional<glm::dvec3> end = end_of(found_, rest_, leg);
+            if (!end && !found_.bones.has(bones.lower)) continue;
             const glm::dvec3 foot = end ? *end : rest_.position(found_.bones[bones.lower]);
             if (const auto up = unit(rest_.position(found_.bones[bones.upper]) - foot)) sum += *up;
         }
