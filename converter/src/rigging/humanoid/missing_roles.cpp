@@ -98,6 +98,17 @@ private:
     ClipRotations clips_;
 };
 
+/// \param still  the role of the joint that turns by so many degrees only, while this one swings
+std::string warning_of(const Scene& scene, std::uint32_t joint, const RoleRecord& still, double swing, double turn) {
+    const auto shown = [](double degrees) { return std::to_string(std::lround(degrees)); };
+    const std::string name = quote(scene.joints[joint].name);
+    const std::string role(kValueNames<Role>[still.role]);
+    return "joint " + name + " has no role but swings by " + shown(swing) + " degrees; the " + role + ", " +
+           quote(scene.joints[still.joint].name) + ", turns by " + shown(turn) + ". If " + name + " is the " + role +
+           R"(, say so in a rig file (--rig), as in {"bendy_rig": 1, "roles": {")" + role + R"(": "#)" +
+           std::to_string(joint) + "\"}}";
+}
+
 }  // namespace
 
 void warn_of_missing_roles(const Scene& scene, Report& report) {
@@ -106,7 +117,6 @@ void warn_of_missing_roles(const Scene& scene, Report& report) {
     const std::vector<LimbPart> parts = parts_with_more_joints(scene);
     if (parts.empty() || scene.clips.empty()) return;
     const Moves moves(scene);
-    const auto shown = [](double degrees) { return std::to_string(std::lround(degrees)); };
     for (const LimbPart& part : parts) {
         const double of_top = moves.turn(part.top->joint);
         const double of_end = moves.turn(part.end->joint);
@@ -114,13 +124,7 @@ void warn_of_missing_roles(const Scene& scene, Report& report) {
         for (const std::uint32_t joint : part.between) {
             const double swing = moves.swing(joint, part);
             if (swing < kSwing || std::min(of_top, of_end) > kHardly * swing) continue;
-            const std::string role(kValueNames<Role>[still.role]);
-            const std::string name = quote(scene.joints[joint].name);
-            report.warn("joint " + name + " has no role but swings by " + shown(swing) + " degrees; the " + role +
-                        ", " + quote(scene.joints[still.joint].name) + ", turns by " + shown(std::min(of_top, of_end)) +
-                        ". If " + name + " is the " + role +
-                        ", say so in a rig file (--rig), as in {\"bendy_rig\": 1, \"roles\": {\"" + role + "\": \"#" +
-                        std::to_string(joint) + "\"}}");
+            report.warn(warning_of(scene, joint, still, swing, std::min(of_top, of_end)));
         }
     }
 }
