@@ -124,6 +124,24 @@ TEST(StandingPose, IsTheRestPoseTurnedUprightIfThatLies) {
     }
 }
 
+/// A body that leans a little keeps its lean: which way is up is not measured so finely.
+TEST(StandingPose, IsTurnedByQuartersIfItLiesAlongAnAxis) {
+    Scene scene = human();
+    set_rotation(scene.joints[joint_named(scene, "spine")].rest,
+                 about({1, 0, 0}, 8.0) * rotation_in(scene.joints[joint_named(scene, "spine")].rest));
+    const RestFrames leaning(scene);
+    tip_over(scene, about({1, 0, 0}, -90.0));
+    Report report;
+    find(scene, report);
+    ASSERT_TRUE(scene.standing_pose.has_value());
+    const std::vector<glm::dvec3> places = places_in_stand(scene);
+    for (const char* name : {"head", "leftHand", "leftFoot"}) {
+        const auto way = leaning.direction(joint_named(scene, "hips"), joint_named(scene, name));
+        const glm::dvec3 stands = places[joint_named(scene, name)] - places[joint_named(scene, "hips")];
+        EXPECT_LT(glm::distance(*way, glm::normalize(stands)), 1e-5) << name;
+    }
+}
+
 /// A file whose motions have Z up, as its rest pose, is not turned: its up is what it is.
 TEST(StandingPose, IsNotStoredWhereTheMotionsHaveTheSameUp) {
     Scene scene = human();
@@ -224,6 +242,26 @@ TEST(StandingPose, IsTheFrameOfAClipIfTheRestPoseIsNoBody) {
     EXPECT_EQ(evidence_of(scene), StandingEvidence::clip);
     EXPECT_LT(degrees_from_up(scene, "hips", "head"), 3.0);
     EXPECT_LT(degrees_from_up(scene, "leftLowerLeg", "leftUpperLeg"), 3.0);
+}
+
+/// Where a body looks at a moment of a clip does not say where its front is.
+TEST(StandingPose, FacesTheFrontWhereverTheClipLooks) {
+    for (const double looks : {0.0, 60.0, 145.0, -90.0}) {
+        Scene scene = human();
+        std::vector<Transform> standing = rest_of(scene);
+        Transform& root = standing[0];
+        set_rotation(root, about({0, 1, 0}, looks) * rotation_in(root));
+        for (Joint& joint : scene.joints) set_rotation(joint.rest, glm::dquat(1, 0, 0, 0));
+        scene.clips = {frame_of(standing)};
+        Report report;
+        find(scene, report);
+        ASSERT_TRUE(scene.standing_pose.has_value());
+        EXPECT_EQ(evidence_of(scene), StandingEvidence::clip);
+        EXPECT_NEAR(scene.standing_pose->pose.axes[3], 1.0f, 1e-6f) << looks;
+        const std::vector<glm::dvec3> places = places_in_stand(scene);
+        const glm::dvec3 left = places[joint_named(scene, "leftHand")] - places[joint_named(scene, "rightHand")];
+        EXPECT_GT(glm::normalize(left).x, 0.999) << looks;
+    }
 }
 
 TEST(StandingPose, ThatNobodyKnowsIsSaid) {

@@ -28,6 +28,20 @@ constexpr double kUpright = 35.0;   // degrees, of trunk and legs
 constexpr double kBentKnee = 40.0;  // degrees
 constexpr double kUneven = 0.03;    // of the height, between the feet
 
+constexpr double kNearUp = 0.82, kNearFront = 0.94, kAlong = 0.985;  // cosines: 35, 20 and 10 degrees
+
+/// The coordinate axis that is within an angle of a unit vector. A stance that leans or is turned a little must not
+/// tilt the ground.
+std::optional<glm::dvec3> near_axis(const glm::dvec3& v, double cosine) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::abs(v[axis]) < cosine) continue;
+        glm::dvec3 exact(0.0);
+        exact[axis] = v[axis] < 0.0 ? -1.0 : 1.0;
+        return exact;
+    }
+    return std::nullopt;
+}
+
 /// Degrees between two directions; 180 if one has none.
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     const auto from = unit(a);
@@ -254,8 +268,8 @@ std::optional<glm::dvec3> own_up(const RestFrames& pose, const Humanoid& bones) 
 }  // namespace
 
 glm::dvec3 find_up(const Scene& scene, const Humanoid& bones) {
-    constexpr double kSteady = 0.8;     // length of the mean of unit vectors
-    constexpr double kNearAxis = 0.82;  // cosine: 35 degrees
+    constexpr double kSteady = 0.8;  // length of the mean of unit vectors
+    constexpr glm::dvec3 kModelUp(0.0, 1.0, 0.0);
     glm::dvec3 sum(0.0);
     double frames = 0.0;
     visit_frames(scene, [&](const std::vector<Transform>& locals) {
@@ -264,13 +278,7 @@ glm::dvec3 find_up(const Scene& scene, const Humanoid& bones) {
     });
     const glm::dvec3 mean = frames == 0.0 ? sum : sum / frames;
     const auto up = unit(mean);
-    for (int axis = 0; up && glm::length(mean) > kSteady && axis < 3; ++axis) {
-        if (std::abs((*up)[axis]) < kNearAxis) continue;
-        glm::dvec3 exact(0.0);
-        exact[axis] = (*up)[axis] < 0.0 ? -1.0 : 1.0;
-        return exact;
-    }
-    return {0.0, 1.0, 0.0};
+    return up && glm::length(mean) > kSteady ? near_axis(*up, kNearUp).value_or(kModelUp) : kModelUp;
 }
 
 std::optional<CandidatePose> find_standing_frame(const Scene& scene, const Humanoid& bones, const glm::dvec3& up) {
@@ -294,23 +302,30 @@ std::optional<Rotation> axes_of(const RestFrames& pose, const Humanoid& bones, c
         const HumanBone other = converter::mirrored(bone);
         if (bones.has(bone) && bones.has(other)) across += pose.position(bones[bone]) - pose.position(bones[other]);
     }
-    const auto left = unit_across(across, up);
+    const auto level = unit_across(across, up);
+    const auto left = level ? unit_across(near_axis(*level, kNearFront).value_or(*level), up) : std::nullopt;
     if (!left) return std::nullopt;
     return rotation_of_axes(glm::dmat3(*left, up, glm::cross(*left, up)));
+}
+
+/// The pose turned as a whole so that an axis of the body is up; with Y up it faces Z.
+std::optional<CandidatePose> turn_to_front(const Scene& scene, const Humanoid& bones, const glm::dvec3& own_up,
+                                           const glm::dvec3& up, CandidatePose pose) {
+    const auto axes = axes_of(RestFrames(scene, pose.locals), bones, own_up);
+    const auto x = unit_across({1.0, 0.0, 0.0}, up);
+    const auto left = x ? x : unit_across({0.0, 0.0, 1.0}, up);
+    if (!axes || !left) return std::nullopt;
+    const Rotation turn = rotation_of_axes(glm::dmat3(*left, up, glm::cross(*left, up))) * glm::conjugate(*axes);
+    return turned(scene, turn, std::move(pose));
 }
 
 }  // namespace
 
 std::optional<CandidatePose> turn_upright(const Scene& scene, const Humanoid& bones, const glm::dvec3& up,
                                           CandidatePose pose) {
-    const RestFrames frames(scene, pose.locals);
-    const auto own = own_up(frames, bones);
-    const auto axes = own ? axes_of(frames, bones, *own) : std::nullopt;
-    const auto x = unit_across({1.0, 0.0, 0.0}, up);
-    const auto left = x ? x : unit_across({0.0, 0.0, 1.0}, up);
-    if (!axes || !left) return std::nullopt;
-    const Rotation turn = rotation_of_axes(glm::dmat3(*left, up, glm::cross(*left, up))) * glm::conjugate(*axes);
-    return turned(scene, turn, std::move(pose));
+    const auto own = own_up(RestFrames(scene, pose.locals), bones);
+    if (!own) return std::nullopt;
+    return turn_to_front(scene, bones, near_axis(*own, kAlong).value_or(*own), up, std::move(pose));
 }
 
 // --- the scene's
@@ -411,7 +426,9 @@ std::optional<CandidatePose> find_stand(const Scene& scene, const Humanoid& bone
         auto pose = turn_upright(scene, bones, up, std::move(candidate));
         if (pose && does_stand(RestFrames(scene, pose->locals), bones, up)) return pose;
     }
-    return find_standing_frame(scene, bones, up);
+    auto frame = find_standing_frame(scene, bones, up);
+    if (!frame) return std::nullopt;
+    return turn_to_front(scene, bones, up, up, *std::move(frame));  // in its clips a body looks anywhere
 }
 
 std::string why_not(const Standing& standing) {

@@ -56,7 +56,8 @@ glm::dvec3 find_up(const Scene& scene, const Humanoid& bones);
 /// \param up  an axis
 std::optional<CandidatePose> find_standing_frame(const Scene& scene, const Humanoid& bones, const glm::dvec3& up);
 
-/// The pose turned as a whole so that the body is upright; with Y up it faces Z. Nothing if it has no up or no left.
+/// The pose turned as a whole so that the body is upright; with Y up it faces Z. A body near an axis is taken for one
+/// along it. Nothing if it has no up or no left.
 /// \param up  an axis
 std::optional<CandidatePose> turn_upright(const Scene& scene, const Humanoid& bones, const glm::dvec3& up,
                                           CandidatePose pose);
