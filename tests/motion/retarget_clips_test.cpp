@@ -6,6 +6,7 @@
 #include "runtime/animal_model.h"
 #include "runtime/clip_model.h"
 #include "runtime/human_model.h"
+#include "source_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +14,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <random>
 #include <span>
@@ -449,6 +452,16 @@ TEST(RetargetClips, BonesThatPointElsewhereThanTheSourcesAreNamedWithTheCause) {
     EXPECT_TRUE(bent.starts_with("feet on the ground turn legs far from the source's directions in 1 clip, most "))
         << bent;
     EXPECT_TRUE(bent.ends_with("; --free-feet lets them go")) << bent;
+}
+
+TEST(RetargetClips, ThePageSaysWhatIsFarFromTheSource) {
+    std::ifstream file((source_folder() / "docs/retarget.md").string());
+    const std::string page((std::istreambuf_iterator<char>(file)), {});
+    const auto whole = [](double number) { return std::to_string(std::lround(number)); };
+    EXPECT_NE(page.find("limbs that point more than " + whole(kFarOfLimb) +
+                        " degrees elsewhere than the source's, other bones more than " + whole(kFarOfOthers) + ":"),
+              std::string::npos);
+    EXPECT_NE(page.find("by more than " + whole(100.0 * kFarMiss) + " % of the legs' length."), std::string::npos);
 }
 
 TEST(RetargetClips, ClipsWithoutACounterpartAreLeftOut) {

@@ -1,9 +1,11 @@
 #include "bone_comparison.h"
 
 #include <bendy/format/role.h>
+#include <bendy/motion/retarget_clips.h>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <algorithm>
@@ -15,17 +17,13 @@
 namespace bendy::motion {
 namespace {
 
-/// Bones of limbs have the source's directions; trunks, necks, collarbones and feet have those of their own rig, which
-/// differ by up to 48 degrees between makers (docs/decisions/0070).
-constexpr double kFarOfLimb = 0.35, kFarOfOthers = 0.87;  // radians: 20 and 50 degrees
-
 /// Bones of an animal's leg that are compared. Below them the foot begins, in one family higher than in another; it is
 /// only held level.
 constexpr std::size_t kUpperBones = 2;
 
 struct HumanBone {
     Role from, to;
-    double far = kFarOfLimb;
+    double far = kFarOfLimb;  ///< degrees
 };
 
 constexpr std::array kHumanBones{
@@ -70,13 +68,13 @@ std::vector<SharedBone> list_shared_bones(const Retarget& retarget) {
     for (const HumanBone& bone : kHumanBones) {
         add({{joint_of(source, bone.from), joint_of(source, bone.to)},
              {joint_of(target, bone.from), joint_of(target, bone.to)},
-             bone.far});
+             glm::radians(bone.far)});
     }
     const auto source_of = [&](std::uint32_t joint) { return joint == kNone ? kNone : retarget.joints()[joint]; };
     for (const Role leg : {Role::left_hind_leg, Role::right_hind_leg, Role::left_front_leg, Role::right_front_leg}) {
         for (std::size_t place = 0; place < kUpperBones; ++place) {
             const SharedBone::Ends ends{joint_of(target, leg, place), joint_of(target, leg, place + 1)};
-            if (is_whole(ends)) add({{source_of(ends.from), source_of(ends.to)}, ends, kFarOfOthers});
+            if (is_whole(ends)) add({{source_of(ends.from), source_of(ends.to)}, ends, glm::radians(kFarOfOthers)});
         }
     }
     return bones;

@@ -103,8 +103,6 @@ struct Doubt {
     }
 };
 
-constexpr double kFarMiss = 0.05;  // of the length of the legs
-
 class ClipRetargeting {
 public:
     ClipRetargeting(Retarget retarget, const RetargetClips& options, Log& log)

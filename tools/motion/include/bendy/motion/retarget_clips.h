@@ -24,8 +24,8 @@ struct RetargetClips {
 /// and reported.
 ///
 /// The result is measured against the source, too: the angles between the directions of bones that both bodies have.
-/// Warnings name the worst that point elsewhere, why they do, and what changes it; feet and hands that miss their
-/// places, and hips that are lowered, by more than 5 % of the legs' length.
+/// Warnings name the worst that point elsewhere by more than kFarOfLimb or kFarOfOthers, why they do, and what changes
+/// it; feet and hands that miss their places, and hips that are lowered, by more than kFarMiss.
 ///
 /// How firmly heels and toes stand comes with the clip as the curves left_heel_contact, left_toes_contact,
 /// right_heel_contact and right_toes_contact, from 0 in the air to 1 on the ground. Where the source's clip has one of
@@ -41,5 +41,10 @@ inline constexpr double kMostTurnedFree =
     0.000004;                                 ///< without limits and planted feet, where keys of the source are exact
 inline constexpr double kMostMoved = 0.0001;  ///< of the length of the legs
 inline constexpr double kMostWeight = 0.002;  ///< of a morph target, of a contact, of a scale
+
+/// What a warning names. Bones of limbs have the source's directions; trunks, necks, collarbones and feet have those of
+/// their own rig (docs/decisions/0070). docs/retarget.md says the same.
+inline constexpr double kFarOfLimb = 20.0, kFarOfOthers = 50.0;  ///< degrees
+inline constexpr double kFarMiss = 0.05;                         ///< of the length of the legs
 
 }  // namespace bendy::motion
