@@ -183,6 +183,17 @@ TEST(Retarget, RotationsOfTheSameRigMeanTheSameHoweverItRests) {
     }
 }
 
+TEST(Retarget, OfTheSameRigAndRestEachStandsOnItsOwnGround) {
+    HumanModel raised(HumanSpec{.axes = 3});
+    raised.spec.joints[1].rest.translation[1] += 0.05f;  // the hips
+    test::PosedBody<HumanModel> source(raised, 0.0), target(HumanModel(HumanSpec{.axes = 3}), 0.0);
+    const double stands = target.place("hips").y;
+    Retarget retargeted = made(source, target, kDirections);
+    RetargetState state;
+    ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+    EXPECT_NEAR(target.place("hips").y, stands, 1e-5);
+}
+
 TEST(Retarget, WhatOneOfTheTwoDoesNotHaveGoesAlong) {
     const HumanSpec whole{.axes = 2};
     for (const HumanSpec& half :

@@ -13,7 +13,8 @@
 namespace bendy {
 namespace {
 
-constexpr float kSame = 1e-3f;  // of a bone's length, and of a scale
+constexpr float kSame = 1e-3f;    // of a bone's length, and of a scale
+constexpr double kTurned = 1e-3;  // radians
 
 bool are_near(const glm::vec3& a, const glm::vec3& b) {
     return glm::length(a - b) <= kSame * std::max(glm::length(a), glm::length(b)) + 1e-6f;
@@ -28,6 +29,11 @@ std::vector<bool> list_body(const Model& model) {
         if (is_body[joint] && parent != kNone) is_body[parent] = true;
     }
     return is_body;
+}
+
+bool are_turned(const glm::quat& a, const glm::quat& b) {
+    const glm::dquat by = glm::conjugate(glm::dquat(a)) * glm::dquat(b);
+    return 2.0 * glm::length(glm::dvec3(by.x, by.y, by.z)) > kTurned;
 }
 
 std::uint32_t hips_of(const Model& model) {
@@ -54,7 +60,7 @@ std::vector<JointTransform> locals_of_same_rig(const Model& source, const Model&
     const std::vector<bool> is_body = list_body(source);
     std::vector<JointTransform> locals = standing_locals(source);
     const std::vector<JointTransform> others = standing_locals(target);
-    bool is_above_hips = true;
+    bool is_above_hips = true, rests_otherwise = false;
     for (std::uint32_t joint = 0; joint < is_body.size(); ++joint) {
         if (!is_body[joint]) continue;
         const std::uint32_t other = names.joints()[joint];
@@ -69,8 +75,10 @@ std::vector<JointTransform> locals_of_same_rig(const Model& source, const Model&
         is_above_hips = is_above_hips && joint != hips;
         if (is_above_hips && !(from.rest.rotation == to.rest.rotation)) return {};
         if (joint != hips && !are_near(from.rest.translation, to.rest.translation)) return {};
+        rests_otherwise = rests_otherwise || are_turned(locals[joint].rotation, others[other].rotation);
         locals[joint] = others[other];
     }
+    if (!rests_otherwise) return {};
     const bool have_same_roles =
         std::equal(source.roles().begin(), source.roles().end(), target.roles().begin(),
                    [&](const JointRole& a, const JointRole& b) {
