@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -103,6 +104,45 @@ TEST(Stand, SaysWhatIsMissing) {
               std::string::npos);
     const Buffer bare = file_of(HumanModel(HumanSpec{.has_roles = false}));
     EXPECT_NE(problem(stand_as(bare, file, log)).find("--role"), std::string::npos);
+}
+
+/// The ground is that of the clips, wherever the root's rest translation has the body.
+TEST(Stand, FeetArePlantedOnTheGroundOfTheClips) {
+    constexpr float kSunk = 0.3f;
+    const HumanModel plain(HumanSpec{});
+    HumanModel sunk(HumanSpec{});
+    const std::uint32_t hips = sunk.joint("hips");
+    sunk.spec.joints[hips].rest.translation[1] -= kSunk;
+    const Buffer plain_file = file_of(plain);
+    const auto standing = Model::from_memory(plain_file);
+    Pose rest(*standing);
+    float lowest = 1.0f;
+    for (const JointRole& role : standing->roles()) lowest = std::min(lowest, rest.model_space()[role.joint][3].y);
+    StandingPoseRecord record;
+    record.axes = {0.0f, 0.0f, 0.0f, 1.0f};
+    record.ground = lowest;
+    record.height = 1.58f;
+    const auto told = edit::set_standing_pose(file_of(sunk), record, {});
+    ASSERT_TRUE(told) << told.error().message;
+    const auto low = Model::from_memory(*told);
+    ASSERT_TRUE(low);
+    const std::uint32_t foot = plain.joint("leftFoot");
+    const double stands = rest.model_space()[foot][3].y;
+    const auto put = [&](const Model& source, const Model& target, float raised) {
+        auto made = Retarget::make(source, target, {RestPoses::measured, false, true});
+        EXPECT_TRUE(made);
+        Pose from(source), to(target);
+        JointTransform local = from.local(hips);
+        local.translation.y += raised;
+        from.set_local(hips, local);
+        RetargetState state;
+        const auto done = retarget(to, *made, from, state);
+        EXPECT_TRUE(done);
+        EXPECT_EQ(done->contacts[0], 1.0f);
+        return double{to.model_space()[foot][3].y};
+    };
+    EXPECT_NEAR(put(*standing, *low, 0.0f), stands, 1e-4);
+    EXPECT_NEAR(put(*low, *standing, kSunk), stands, 1e-4);
 }
 
 /// A body that lies at rest is retargeted from and to as the same body that stands.

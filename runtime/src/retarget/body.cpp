@@ -190,7 +190,8 @@ void Body::stand_on(const std::array<float, 4>& axes, double ground, const glm::
     for (std::uint32_t joint = 0; joint < has_role_.size(); ++joint) {
         if (has_role_[joint]) lowest = std::min(lowest, glm::dot(up(), place(joint)));
     }
-    ground_ = up() * (ground + glm::dot(up(), feet) - lowest);
+    raised_ = ground - lowest;
+    ground_ = up() * (raised_ + glm::dot(up(), feet));
 }
 
 /// Returns the joint of the hips, or else the lowest of the trunk, or any that has a role.

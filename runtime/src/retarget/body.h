@@ -85,6 +85,8 @@ public:
     [[nodiscard]] const glm::dvec3& hips() const { return hips_; }
     /// Below the hips, at the height of the feet.
     [[nodiscard]] const glm::dvec3& ground() const { return ground_; }
+    /// How far clips have the body above where its standing pose has it, metres along up.
+    [[nodiscard]] double raised() const { return raised_; }
 
 private:
     void find_limbs();
@@ -108,6 +110,7 @@ private:
     glm::dquat axes_{1.0, 0.0, 0.0, 0.0};
     std::array<double, 4> lengths_{};
     glm::dvec3 hips_{0.0}, ground_{0.0};
+    double raised_ = 0.0;
 };
 
 }  // namespace bendy

@@ -331,8 +331,8 @@ private:
     }
 
     [[nodiscard]] ContactPlan make_contact(std::uint32_t source, std::uint32_t target) const {
-        const double from = glm::dot(plan_.source_up, source_.place(source) - plan_.map.from);
-        const double to = glm::dot(plan_.up, target_.place(target) - plan_.map.to);
+        const double from = glm::dot(plan_.source_up, source_.place(source) - plan_.map.from) + source_.raised();
+        const double to = glm::dot(plan_.up, target_.place(target) - plan_.map.to) + target_.raised();
         return {source, from, to - plan_.map.scale * from};
     }
 

@@ -402,7 +402,7 @@ std::optional<StandingPose> make_standing_pose(const Scene& scene, const Humanoi
     for (const RoleRecord& role : scene.roles)
         standing.rotations.push_back(standing_rotation(role.joint, to_record(stands.turn(role.joint))));
     const auto [lowest, highest] = heights_of(scene, pose, up);
-    constexpr double kNear = 0.05;  // of the height: feet dip into the ground
+    constexpr double kNear = 0.02;  // of the height: feet dip into the ground
     const double of_clips = ground_of_clips(scene, bones[Bone::hips], up).value_or(lowest);
     const double ground = std::abs(of_clips - lowest) < kNear * (highest - lowest) ? lowest : of_clips;
     standing.pose.axes = to_record(*axes);
