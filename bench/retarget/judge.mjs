@@ -1,7 +1,8 @@
 // Judges retargeted clips by three.js's forward kinematics of glTF files, with no code of Bendy's.
 //   node judge.mjs JOBS.json
 // Jobs: [{ "source": glTF, "roles": export of the source, "clip": its name, "full", "free", "back": exports of the retargeted
-// clip: as usual, without limits and planting, and put back on the source's rig without both }]. Prints for each job a line
+// clip: as usual, without limits and planting, and put back on the source's rig without both, "stands": { "from", "to": a file
+// whose skins are bound to the pose in which the source's or the target's body stands, or null if that stands at rest } }]. Prints for each job a line
 // of JSON: the figures that Sums below explains, or { "failed": why }.
 
 import fs from 'node:fs';
@@ -119,18 +120,20 @@ function judge(source, target, frames) {
 }
 
 const rigs = new Map();
-async function open(file, roles = file) {
+async function open(file, roles, stands) {
     const key = `${file} ${roles}`;
-    if (!rigs.has(key)) rigs.set(key, await loadRig(file, roles));
+    if (!rigs.has(key)) rigs.set(key, await loadRig(file, roles, stands));
     return rigs.get(key);
 }
 
 for (const job of JSON.parse(fs.readFileSync(process.argv[2], 'utf8'))) {
     let line;
     try {
-        const source = await open(job.source, job.roles);
-        const own = job.roles === job.source ? source : await open(job.roles);
-        const [full, free, back] = [await loadRig(job.full), await loadRig(job.free), await loadRig(job.back)];
+        const { from, to } = job.stands;
+        const source = await open(job.source, job.roles, from);
+        const own = job.roles === job.source ? source : await open(job.roles, job.roles, from);
+        const load = (file, stands) => loadRig(file, file, stands);
+        const [full, free, back] = [await load(job.full, to), await load(job.free, to), await load(job.back, from)];
         const frames = { source: play(source, job.clip), full: play(full, job.clip), free: play(free, job.clip), back: play(back, job.clip) };
         line = { seconds: frames.source.length / kRate, source_is_original: source !== own, ...judge(source, full, frames) };
     } catch (problem) {

@@ -9,7 +9,7 @@ globalThis.self ??= globalThis;
 globalThis.ProgressEvent ??= class extends Event {};
 
 /** The JSON and the buffer of a GLB file, or of a glTF file with its buffer beside it or inside. */
-function open(file) {
+export function open(file) {
     const bytes = fs.readFileSync(file);
     if (bytes.toString('latin1', 0, 4) === 'glTF') {
         const size = bytes.readUInt32LE(12);
@@ -34,7 +34,7 @@ export function nodesOnly(file) {
 }
 
 /** Role to number of node, from BENDY_joint_role; a joint of a chain has its place after the role. */
-function rolesIn(json) {
+export function rolesIn(json) {
     const roles = new Map();
     json.nodes.forEach((node, number) => {
         const { role, place } = node.extensions?.BENDY_joint_role ?? {};
@@ -55,11 +55,26 @@ function rolesByName(json, other) {
     return roles;
 }
 
-/** Loads a file's nodes and clips, with the roles that another file says. That file is loaded if names do not tell. */
-export async function loadRig(file, rolesFile = file) {
+/** Name to the matrix of a joint as skins are bound, in the space of the vertices. */
+function boundIn({ json, buffer }) {
+    const bound = new Map();
+    for (const { joints, inverseBindMatrices } of json.skins ?? []) {
+        const { bufferView, byteOffset = 0 } = json.accessors[inverseBindMatrices];
+        const at = (json.bufferViews[bufferView].byteOffset ?? 0) + byteOffset;
+        joints.forEach((joint, n) => {
+            const numbers = Array.from({ length: 16 }, (_, k) => buffer.readFloatLE(at + 64 * n + 4 * k));
+            bound.set(json.nodes[joint].name, new THREE.Matrix4().fromArray(numbers).invert());
+        });
+    }
+    return bound;
+}
+
+/** Loads a file's nodes and clips, with the roles that another file says. That file is loaded if names do not tell. A file
+ * whose skins are bound to the pose in which the body stands may be named, if it does not stand at rest. */
+export async function loadRig(file, rolesFile = file, stands = null) {
     const json = nodesOnly(file);
     const roles = file === rolesFile ? rolesIn(json) : rolesByName(json, open(rolesFile).json);
-    if (!roles) return loadRig(rolesFile);
+    if (!roles) return loadRig(rolesFile, rolesFile, stands);
     const limits = json.nodes.map((node) => node.extensions?.BENDY_joint_limits?.limits);
     const labels = json.nodes.map((node, number) => node.name ?? `#${number}`);
     json.nodes.forEach((node, number) => { node.name = `node${number}`; }); // three.js binds tracks by names
@@ -69,7 +84,7 @@ export async function loadRig(file, rolesFile = file) {
     nodes.forEach((node, number) => {
         if (node) Object.assign(node, { number, label: labels[number], rest: node.quaternion.clone(), limit: limitOf(limits[number]) });
     });
-    return new Rig(gltf, nodes, roles, names);
+    return new Rig(gltf, nodes, roles, names, stands && boundIn(open(stands)));
 }
 
 /** What poses obey: an IK solver's own limit is none of theirs. */
@@ -84,12 +99,14 @@ const humanLimbs = ['left', 'right'].flatMap((side) => [
 ]);
 
 class Rig {
-    constructor(gltf, nodes, roles, names) {
+    constructor(gltf, nodes, roles, names, bound) {
         Object.assign(this, { scene: gltf.scene, animations: gltf.animations, nodes, roles, names });
         this.mixer = new THREE.AnimationMixer(this.scene);
         this.limited = nodes.filter((node) => node?.limit);
         this.axes = new THREE.Quaternion();
         this.scene.updateMatrixWorld(true);
+        const places = nodes.map((node) => node?.position.clone());
+        if (bound) this.stand(bound);
         const isHuman = this.has('leftUpperLeg');
         this.limbs = isHuman ? humanLimbs : this.chains();
         const rest = new Frame(this);
@@ -105,6 +122,21 @@ class Rig {
         if (!isHuman) this.divide();
         const { bones } = this.limbs.find((limb) => limb.foot);
         this.leg = bones.slice(1).reduce((sum, bone, n) => sum + this.rest.place(bones[n]).distanceTo(this.rest.place(bone)), 0);
+        nodes.forEach((node, number) => { // clips may leave some at rest
+            node?.quaternion.copy(node.rest);
+            node?.position.copy(places[number]);
+        });
+    }
+    /** Turns joints as they are bound, and puts the hips there. */
+    stand(bound) {
+        this.scene.traverse((node) => {
+            const matrix = bound.get(node.label);
+            if (!matrix) return;
+            const parent = node.parent.getWorldQuaternion(new THREE.Quaternion()).invert();
+            node.quaternion.copy(parent.multiply(new THREE.Quaternion().setFromRotationMatrix(new THREE.Matrix4().extractRotation(matrix))));
+            if (node === this.node('hips')) node.position.copy(node.parent.worldToLocal(new THREE.Vector3().setFromMatrixPosition(matrix)));
+            node.updateMatrixWorld(true);
+        });
     }
     /** The legs of an animal, whole. Exports have parents first, so joints of a chain are in order. */
     chains() {

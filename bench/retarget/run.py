@@ -45,14 +45,19 @@ class Bench:
         self.run("export", "-q", path, "-o", path.with_suffix(".glb"))
         return str(path.with_suffix(".glb"))
 
-    def prepare(self, rig):
-        """The rig's file, checked; a bendy file of its joints, one with its clips, and one with them as glTF."""
+    def find(self, rig):
+        """The rig's file, checked."""
         path = next((folder / rig["file"] for folder in self.folders if (folder / rig["file"]).exists()), None)
         if not path:
             sys.exit(f"{rig['file']} of {rig['source']} is in none of {', '.join(map(str, self.folders))}")
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
         if digest != rig["sha256"]:
             sys.exit(f"{path}: its sha256 is {digest}, expected {rig['sha256']}")
+        return path
+
+    def prepare(self, rig):
+        """The rig's file; a bendy file of its joints, one with its clips, and one with them as glTF."""
+        path = self.find(rig)
         name = path.stem
         whole, target, source = (self.work / f"{name}.{kind}.bendy" for kind in ("whole", "target", "source"))
         self.run("convert", "-q", *self.rigging, path, "-o", whole)
@@ -77,7 +82,8 @@ class Bench:
             path.unlink()
         held = dict(re.findall(r'retargeted clip "(.*?)":.*?limits acted in (\d+ of \d+) frame', said))
         return [{"pair": f"{source['name']} > {target['name']}", "kind": kind_of(target["rig"]), "clip": clip,
-                 "source": source["original"], "roles": source["export"], "acted": held.get(clip, ""),
+                 "source": source["original"], "roles": source["export"],
+                 "stands": {"from": stands_as(source), "to": stands_as(target)}, "acted": held.get(clip, ""),
                  "held_out": bool(source["rig"].get("held_out") or target["rig"].get("held_out")), **files}
                 for clip in source["rig"]["clips"]]
 
@@ -114,6 +120,11 @@ class Bench:
         result = subprocess.run([self.bendy, "diff", rig["source"], again], capture_output=True, text=True, check=False)
         again.unlink()
         return [line for line in result.stdout.splitlines() if line.startswith(("+", "-", "~")) and "/CURV" not in line]
+
+
+def stands_as(made):
+    """The file whose skins are bound to the pose in which a rig stands; None if it stands at rest."""
+    return made["original"] if made["rig"].get("stands_as_bound") else None
 
 
 def kind_of(rig):
@@ -194,7 +205,7 @@ def main():
                   () if options.no_limits else ("--auto-rig",))
     install(bench.work)
     listed = [rig for rig in json.loads(RIGS.read_text(encoding="utf-8")) if "clips" in rig
-              and options.kind in (None, kind_of(rig))]
+              and "odd_rest" not in rig and options.kind in (None, kind_of(rig))]
     with ThreadPoolExecutor(os.cpu_count()) as workers:
         rigs = list(workers.map(bench.prepare, listed))
         pairs = [(a, b) for a in rigs for b in rigs if "source" in a and a is not b and b["rig"].get("target", True)
