@@ -254,7 +254,9 @@ private:
             }
             const glm::vec3 where = tip();
             pose_.set_rest();
-            (void)reach(pose_, limb.chain, where);
+            ReachOptions options;
+            options.softness = 0.0f;
+            (void)reach(pose_, limb.chain, where, options);
             const bool is_reached = glm::distance(tip(), where) <= 1e-3 * length;
             const bool is_bent_well = is_bent_as_in_clips(number, bend_of(pose_, limb));
             row_.reached.add(is_reached);

@@ -32,10 +32,8 @@ struct Row {
     Solver solver;
     const char* name;
 };
-constexpr std::array<Row, 6> kRows{{{Solver::any, "any"},
+constexpr std::array<Row, 4> kRows{{{Solver::any, "any"},
                                     {Solver::pull, "pull, 200 frames"},
-                                    {Solver::ccd, "CCD"},
-                                    {Solver::fabrik, "FABRIK"},
                                     {Solver::two_bone, "two-bone"},
                                     {Solver::least_squares, "least squares"}}};
 

@@ -69,7 +69,7 @@ class ReachOptions(Sized):
                 ("ignore_constraints", c_uint32), ("has_pole", c_uint32), ("pole", c_float * 3), ("carry_target", c_uint32)]
 
     def __init__(self, **fields):
-        super().__init__(**{"restarts": 8, "influence": 1.0, "gain": 1.0, "step_limit": 0.2, "carry_target": 1, **fields})
+        super().__init__(**{"restarts": 4, "influence": 1.0, "softness": 0.005, "gain": 1.0, "step_limit": 0.2, "carry_target": 1, **fields})
 
 
 class ReachResult(Sized):

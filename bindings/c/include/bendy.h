@@ -852,10 +852,10 @@ typedef struct bendy_reach_options {
     uint32_t size;
     uint32_t solver;     /* a bendy_solver */
     uint32_t iterations; /* maximum; 0: the chain's, or the solver's default */
-    uint32_t restarts;   /* least squares: number of other starting points to try when it is stuck */
+    uint32_t restarts;   /* number of other poses to start from, at most 4, where the first one does not reach */
     float tolerance;     /* metres; 0: the chain's, or 0.0001 of its length */
     float influence;     /* 0 to 1: how far the solution is blended into the pose */
-    float softness;      /* 0 to 1: two-bone: the fraction of its length over which the chain slows near full reach */
+    float softness;      /* 0 to 1: the share of its length over which a chain slows near full reach; 0: off */
     float gain;          /* pull: radians per chain length of distance */
     float step_limit;    /* pull: radians per joint and call */
     uint32_t ignore_constraints; /* 1: joints may turn beyond their limits; elsewhere: not obey_constraints */
@@ -868,7 +868,7 @@ typedef struct bendy_reach_options {
 
 /* The defaults, which differ from zeros: a struct of zeros sets `influence` and `carry_target` to 0, for example. */
 #define BENDY_REACH_OPTIONS_INIT \
-    { sizeof(bendy_reach_options), BENDY_SOLVER_ANY, 0, 8, 0.0f, 1.0f, 0.0f, 1.0f, 0.2f, 0, 0, {0.0f, 0.0f, 0.0f}, 1 }
+    { sizeof(bendy_reach_options), BENDY_SOLVER_ANY, 0, 4, 0.0f, 1.0f, 0.005f, 1.0f, 0.2f, 0, 0, {0.0f, 0.0f, 0.0f}, 1 }
 
 typedef enum bendy_reach_status {
     BENDY_REACHED = 0,      /* the tip is at the target, within the tolerance */

@@ -7,6 +7,7 @@
 #include "ik_quick.h"
 #include "math/rigid_part.h"
 #include "math/rotation.h"
+#include "one_limb.h"
 #include "pose/pose_state.h"
 
 #include <glm/gtc/matrix_inverse.hpp>
@@ -40,9 +41,7 @@ public:
         const bool is_aim = solver() == Solver::aim;
         ReachResult result;
         result.iterations = solve();
-        constexpr int kCorrections = 32;
-        for (int i = 0; i < kCorrections && !is_aim && correct_bones(); ++i) result.iterations += solve();
-        if (!is_aim && !is_uneven_ && chain_can_change_length() && !problem_.is_reached()) {
+        if (!is_aim && !problem_.is_uneven && chain_can_change_length() && !problem_.is_reached()) {
             fit_length();
             result.iterations += solve();
         }
@@ -90,8 +89,10 @@ private:
             const Joint& joint = joints_[link.joint];
             link.bone = scale * (scale_and_shear(transform, joint.shear) * end_of(i));
             link.bone_length = glm::length(link.bone);
+            link.shape = scale_and_shear(transform, joint.shear);
+            link.end = end_of(i);
             length += link.bone_length;
-            is_uneven_ = is_uneven_ || (i + 1 < links_.size() && is_uneven(transform, joint.shear));
+            problem_.is_uneven = problem_.is_uneven || (i + 1 < links_.size() && is_uneven(transform, joint.shear));
             scale *= mean_scale(transform.scale);
             const std::uint32_t number = options_.obey_constraints ? state_.data->ik_constraint(link.joint) : kNone;
             const bool is_free = number == kNone;
@@ -100,12 +101,14 @@ private:
             link.rest_frame =
                 is_free ? glm::normalize(glm::dquat(joint.rest.rotation)) : state_.data->rest_frames[number];
             link.freedom = link.constraint == nullptr ? glm::dvec3(1.0) : glm::dvec3(1.0) - link.constraint->stiffness;
-            link.local = nearest_legal_local(link, glm::normalize(glm::dquat(transform.rotation)));
+            link.saved = glm::normalize(glm::dquat(transform.rotation));
+            link.local = legal_local(link, link.saved);
         }
         problem_.scale = length > 0.0 ? length : 1.0;
         problem_.reach = length > 0.0 ? 1.0 : 0.0;
-        if (is_uneven_) find_longest();
+        if (problem_.is_uneven) find_longest();
         for (IkLink& link : links_) {
+            link.end /= problem_.scale;
             link.bone /= problem_.scale;
             link.bone_length /= problem_.scale;
         }
@@ -117,7 +120,7 @@ private:
             const glm::vec3 axes = glm::abs(local(links_[i].joint).scale);
             const glm::vec3 shear = glm::abs(joints_[links_[i].joint].shear);
             scale *= std::max({axes.x, axes.y, axes.z}) + shear.x + shear.y + shear.z;
-            longest_ += scale * glm::length(end_of(i)) / problem_.scale;
+            problem_.longest += scale * glm::length(end_of(i)) / problem_.scale;
         }
     }
 
@@ -163,8 +166,8 @@ private:
         gather_pole();
         wanted_ = problem_.target;
         find_reach();
+        soften();
         problem_.place();
-        if (is_uneven_) match_bones();
         const double sum = glm::dot(problem_.target, problem_.target) + glm::dot(problem_.tip, problem_.tip) +
                            glm::dot(problem_.origin, problem_.origin) + glm::length(problem_.tip_global) +
                            glm::dot(problem_.pole, problem_.pole) + problem_.pole_angle;
@@ -175,7 +178,18 @@ private:
         const double distance = glm::length(wanted_ - problem_.origin);
         constexpr double kStraight = 1e-6;  // chain lengths: a bend too small to see
         is_far_ = distance > problem_.reach - kStraight;
-        problem_.is_out_of_reach = distance > std::max(problem_.reach, longest_) + problem_.tolerance;
+        problem_.is_out_of_reach = distance > std::max(problem_.reach, problem_.longest) + problem_.tolerance;
+    }
+
+    /// Moves the target nearer by the softness.
+    void soften() {
+        const Solver chosen = solver();
+        const glm::dvec3 way = wanted_ - problem_.origin;
+        const double distance = glm::length(way);
+        const double zone = problem_.reach * softness_of(chain_, options_);
+        if (chosen == Solver::aim || chosen == Solver::pull || !(zone > 0.0) || !(distance > 0.0)) return;
+        problem_.target = problem_.origin + way * (one_limb::softened(distance, problem_.reach, zone) / distance);
+        is_far_ = false;
     }
 
     void gather_pole() {
@@ -218,79 +232,10 @@ private:
     std::uint32_t solve() {
         const Solver chosen = solver();
         if (chosen == Solver::aim) return solve_aim(problem_);
-        if (is_far_ && chosen != Solver::pull && problem_.position_weight > 0.0) point_at_target(problem_);
-        switch (chosen) {
-            case Solver::pull:
-                return solve_pull(problem_);
-            case Solver::ccd:
-                return finish(solve_ccd(problem_));
-            case Solver::fabrik:
-                return finish(solve_fabrik(problem_));
-            case Solver::two_bone:
-                return two_bone();
-            default:
-                return solve_least_squares(problem_);
-        }
-    }
-
-    std::uint32_t two_bone() {
-        const glm::dvec3 target = problem_.target;
-        soften_target(problem_);
-        const std::uint32_t iterations = finish(solve_two_bone(problem_));
-        problem_.target = target;
-        return iterations;
-    }
-
-    /// If a solver stops short of what the chain's length allows, least squares continues from there.
-    std::uint32_t finish(std::uint32_t iterations) {
-        if (problem_.is_out_of_reach ? is_stretched_out() : problem_.is_reached()) return iterations;
-        return iterations + solve_least_squares(problem_);
-    }
-
-    /// Returns true if the tip is as near to a target out of reach as it can be. Limits may hold a straight chain away
-    /// from the target, where a bent one comes nearer.
-    [[nodiscard]] bool is_stretched_out() const {
-        const double beyond = glm::length(problem_.target - problem_.origin) - std::max(problem_.reach, longest_);
-        return glm::length(problem_.target - problem_.tip) <= beyond + problem_.tolerance;
-    }
-
-    /// If a joint scales its axes unevenly, the bones below it change length as they turn, and the problem is only
-    /// valid near the current pose. Sets the links' bones to those of the current pose; returns false if the tip is
-    /// within tolerance.
-    bool correct_bones() {
-        if (!is_uneven_ || problem_.is_out_of_reach) return false;
-        match_bones();
-        return !problem_.is_reached();
-    }
-
-    void match_bones() {
-        glm::dmat4 matrix(1.0);
-        glm::dvec3 position = problem_.origin;
-        problem_.reach = 0.0;
-        for (std::size_t i = 0; i < links_.size(); ++i) {
-            IkLink& link = links_[i];
-            matrix = matrix * link_to_parent(link);
-            const glm::dvec3 end = glm::dvec3(matrix * glm::dvec4(end_of(i), 1.0)) / problem_.scale;
-            link.bone = glm::conjugate(link.global) * (end - position);
-            link.bone_length = glm::length(link.bone);
-            problem_.reach += link.bone_length;
-            position = end;
-        }
-        find_reach();
-        problem_.place();
-    }
-
-    [[nodiscard]] glm::dmat4 link_to_parent(const IkLink& link) const {
-        JointTransform transform = local(link.joint);
-        transform.rotation = glm::quat(link.local);
-        return to_matrix(transform, joints_[link.joint].shear);
-    }
-
-    [[nodiscard]] glm::dvec3 true_tip() const {
-        if (!is_uneven_) return problem_.tip;
-        glm::dmat4 matrix(1.0);
-        for (const IkLink& link : links_) matrix = matrix * link_to_parent(link);
-        return glm::dvec3(matrix * glm::dvec4(tip_offset(chain_), 1.0)) / problem_.scale;
+        if (chosen == Solver::pull) return solve_pull(problem_);
+        if (is_far_ && problem_.position_weight > 0.0) point_at_target(problem_);
+        return problem_.is_reached() || problem_.is_stretched_out() ? 0
+                                                                    : solve_from(problem_, chosen == Solver::two_bone);
     }
 
     /// Scales all bones by the same factor, within the range that the chain allows.
@@ -327,7 +272,7 @@ private:
     }
 
     void measure(ReachResult& result) const {
-        const glm::dvec3 left = wanted_ - true_tip();
+        const glm::dvec3 left = wanted_ - problem_.tip;
         result.distance = static_cast<float>(glm::length(glm::dmat3(base_) * (left * problem_.scale)));
         if (solver() == Solver::aim) {
             const glm::dvec3 forward = problem_.tip_global * glm::dvec3(0.0, 0.0, 1.0);
@@ -336,9 +281,10 @@ private:
             return;
         }
         result.angle = static_cast<float>(problem_.rotation_error());
-        const bool is_there = problem_.position_weight == 0.0 || glm::length(left) <= problem_.tolerance;
-        const bool is_turned = problem_.rotation_error() <= problem_.tolerance;
-        if (is_there && is_turned) {
+        const double soft = glm::length(wanted_ - problem_.target);
+        const bool is_there = problem_.position_weight == 0.0 ||
+                              (!problem_.is_out_of_reach && glm::length(left) <= problem_.tolerance + soft);
+        if (is_there && problem_.rotation_error() <= problem_.tolerance) {
             result.status = ReachStatus::reached;
         } else {
             result.status = problem_.is_out_of_reach ? ReachStatus::out_of_reach : ReachStatus::not_reached;
@@ -357,9 +303,7 @@ private:
     glm::dmat4 inverse_base_{1.0};
     glm::dvec3 wanted_{0};  ///< the target, not softened
     double stretch_ = 1.0;
-    double longest_ = 0.0;    ///< upper bound of the length of a chain with uneven scales, in chain lengths
-    bool is_far_ = false;     ///< the chain must be straight to reach the target, or cannot reach it
-    bool is_uneven_ = false;  ///< a link before the last scales its axes unevenly
+    bool is_far_ = false;  ///< the chain must be straight to reach the target, or cannot reach it
 };
 
 }  // namespace

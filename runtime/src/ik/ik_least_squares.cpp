@@ -10,7 +10,7 @@
 // Damped least squares: Levenberg-Marquardt over all joints at once (Buss, "Introduction to inverse kinematics with
 // Jacobian transpose, pseudoinverse and damped least squares methods", 2004). If a constraint stops a joint in some
 // direction, that direction is removed from the joint and the step is solved again, so that the other joints make up
-// for it. If it is stuck short of the target it restarts elsewhere, and the best result counts.
+// for it.
 namespace bendy {
 namespace {
 
@@ -113,102 +113,11 @@ private:
     double position_, rotation_;  ///< square roots of the weights
 };
 
-/// Three orthonormal axes in base space, in which a chain and its mirror image have the same numbers for mirrored
-/// rotations: derived from the chain's bends at rest, what its constraints allow, its pole, and the direction of the
-/// target. The orientation of the joints' own axes does not matter. Rotations are axial vectors, and so are these.
-glm::dmat3 turn_axes(const IkProblem& problem) {
-    glm::dvec3 bends(0.0);
-    glm::dquat global(1.0, 0.0, 0.0, 0.0);
-    glm::dvec3 tip = problem.origin;
-    glm::dvec3 before(0.0);
-    for (const IkLink& link : problem.links) {
-        if (link.constraint != nullptr) {
-            bends += global * (link.rest_frame * (link.freedom * preferred_side(*link.constraint)));
-        }
-        global = global * link.rest_frame * glm::conjugate(link.frame);
-        const glm::dvec3 bone = global * link.bone;
-        bends += glm::cross(before, bone);
-        if (link.bone_length > 0.0) before = bone / link.bone_length;
-        tip += bone;
-    }
-    const glm::dvec3 reached = tip - problem.origin;
-    if (problem.has_pole) bends += glm::cross(problem.pole - problem.origin, reached);
-    const glm::dvec3 aside = glm::cross(problem.target - problem.origin, reached);
-    const double size = std::sqrt(glm::dot(bends, bends));
-    constexpr double kClear = 1e-3;
-    if (!(size > kClear && std::isfinite(size))) return glm::dmat3(1.0);
-    const glm::dvec3 x = bends / size;
-    const glm::dvec3 across = aside - x * glm::dot(x, aside);
-    const double rest = std::sqrt(glm::dot(across, across));
-    if (!(rest > kClear)) return glm::dmat3(1.0);
-    const glm::dvec3 y = across / rest;
-    return {x, y, glm::cross(x, y)};
-}
-
-/// Sets another starting point: first the preferred pose, then that pose improved by the closed form, then any legal
-/// one.
-void begin_anew(IkProblem& problem, std::uint32_t attempt, const glm::dmat3& axes, Dice& dice) {
-    constexpr std::uint32_t kPreferred = 2;  // attempts
-    glm::dquat parent(1.0, 0.0, 0.0, 0.0);   // at rest
-    for (IkLink& link : problem.links) {
-        const glm::dquat rest = parent * link.rest_frame;
-        parent = rest * glm::conjugate(link.frame);
-        if (link.is_fixed) continue;
-        glm::dvec3 turn(0.0);  // about the frame's axes
-        if (attempt < kPreferred) {
-            if (link.constraint == nullptr) continue;
-            const auto& preferred = link.constraint->record.preferred;
-            turn = {preferred[0], preferred[1], preferred[2]};
-        } else {
-            // One at a time: the evaluation order of arguments is up to the compiler.
-            for (int axis = 2; axis >= 0; --axis) turn[axis] = dice.next() * 2.0;
-            turn = glm::conjugate(rest) * (axes * turn);
-        }
-        link.local = legal_local(
-            link, glm::normalize(link.rest_frame * from_vector(turn * link.freedom) * glm::conjugate(link.frame)));
-    }
-    problem.place();
-    if (attempt == kPreferred - 1) solve_two_bone(problem);
-}
-
 }  // namespace
 
 std::uint32_t solve_least_squares(IkProblem& problem) {
-    const std::uint32_t most = problem.iterations != 0 ? problem.iterations : 60;
-    constexpr std::size_t kLong = 256;  // a long rope that is stuck stays stuck, and each restart costs as much as the
-                                        // first attempt
-    const bool is_hopeless = problem.is_out_of_reach || problem.links.size() > kLong;
-    const std::uint32_t restarts = is_hopeless ? 0 : problem.options->restarts;
     LeastSquares method(problem);
-    std::uint32_t iterations = descend_damped(method, most);
-    if (problem.is_reached()) return iterations;
-    double best = problem.cost();
-    problem.save();
-    const auto descend = [&] {
-        iterations += descend_damped(method, most);
-        // If two results are nearly equal, the first counts: rounding must not choose between them.
-        constexpr double kNearer = 0.99;
-        if (!problem.is_reached() && problem.cost() >= kNearer * best) return;
-        best = problem.cost();
-        problem.save();
-    };
-    // The closed form from the best result so far: it slides along a limit in one step where descent creeps.
-    const auto bend_best = [&] {
-        problem.restore();
-        solve_two_bone(problem);
-        descend();
-    };
-    if (restarts > 0) bend_best();
-    const glm::dmat3 axes = restarts > 0 ? turn_axes(problem) : glm::dmat3(1.0);
-    Dice dice;
-    for (std::uint32_t attempt = 0; attempt < restarts && !problem.is_reached(); ++attempt) {
-        begin_anew(problem, attempt, axes, dice);
-        descend();
-    }
-    constexpr int kLast = 4;
-    for (int i = 0; i < kLast && restarts > 0 && !problem.is_reached(); ++i) bend_best();
-    problem.restore();
-    return iterations;
+    return descend_damped(method, problem.iterations != 0 ? problem.iterations : 60);
 }
 
 }  // namespace bendy

@@ -30,6 +30,7 @@ glm::dvec2 swing_widths(const Constraint& constraint) {
 }  // namespace
 
 void IkProblem::place(std::size_t first) {
+    if (is_uneven) return place_unevenly();
     glm::dquat global = first == 0 ? glm::dquat(1.0, 0.0, 0.0, 0.0) : links[first - 1].global;
     glm::dvec3 position = first == 0 ? origin : links[first - 1].position + global * links[first - 1].bone;
     for (std::size_t i = first; i < links.size(); ++i) {
@@ -43,7 +44,33 @@ void IkProblem::place(std::size_t first) {
     tip_global = global * tip_rotation;
 }
 
+void IkProblem::place_unevenly() {
+    glm::dmat3 space(1.0);
+    glm::dquat global(1.0, 0.0, 0.0, 0.0);
+    glm::dvec3 position = origin;
+    for (IkLink& link : links) {
+        global = global * link.local;
+        link.global = global;
+        link.position = position;
+        link.space = space;
+        space = space * glm::mat3_cast(link.local) * link.shape;
+        const glm::dvec3 bone = space * link.end;
+        link.bone = glm::conjugate(global) * bone;
+        link.bone_length = glm::length(bone);
+        position += bone;
+    }
+    tip = position;
+    tip_global = global * tip_rotation;
+    glm::dvec3 arm(0.0);
+    for (std::size_t i = links.size(); i-- > 0;) {
+        IkLink& link = links[i];
+        arm = link.local * (link.shape * (link.end + arm));
+        link.arm = arm;
+    }
+}
+
 void IkProblem::place_next(std::size_t link) {
+    if (is_uneven) return place_unevenly();
     const IkLink& before = links[link];
     const glm::dvec3 end = before.position + before.global * before.bone;
     if (link + 1 == links.size()) {
@@ -71,6 +98,12 @@ bool IkProblem::is_reached() const {
     return (position_weight == 0.0 || distance() <= tolerance) && (!has_rotation || rotation_error() <= tolerance);
 }
 
+bool IkProblem::is_stretched_out() const {
+    if (!is_out_of_reach) return false;
+    const double beyond = glm::length(target - origin) - std::max(reach, longest);
+    return distance() <= beyond + tolerance;
+}
+
 double IkProblem::cost() const {
     const double p = distance();
     const double r = rotation_error();
@@ -96,6 +129,21 @@ glm::dquat nearest_legal_local(const IkLink& link, const glm::dquat& local) {
     if (link.constraint == nullptr) return local;
     const Constraint& c = *link.constraint;
     return through_limits(link, local, [&](const glm::dquat& R) { return nearest_rotation(c, c.shape, R); });
+}
+
+glm::dquat middle_local(const IkLink& link) {
+    const Constraint& constraint = *link.constraint;
+    const auto& angles = constraint.shape.angles;
+    const auto& preferred = constraint.record.preferred;
+    glm::dquat R = from_vector({preferred[0], preferred[1], preferred[2]});
+    if (R != glm::dquat(1.0, 0.0, 0.0, 0.0))
+        return legal_local(link, glm::normalize(link.rest_frame * R * glm::conjugate(link.frame)));
+    if (constraint.model() == ConstraintModel::hinge) R = about(0, angles[0].middle);
+    if (constraint.model() == ConstraintModel::euler_box) {
+        for (const std::size_t axis : axes_of(constraint.euler_order()))
+            R = about(static_cast<int>(axis), angles.at(axis).middle) * R;
+    }
+    return glm::normalize(link.rest_frame * R * glm::conjugate(link.frame));
 }
 
 glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local) {

@@ -6,8 +6,10 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "math/rotation.h"
 #include "pose/pose_state.h"
 
+#include <optional>
 #include <span>
 
 // A chain as the solvers see it: in the space of the start's parent ("base space"), with lengths in chain lengths.
@@ -27,10 +29,13 @@ struct IkProblem {
     glm::dvec3 pole{0};            ///< point to bend towards
     double pole_angle = 0.0;       ///< radians from the pole to the bend
     double reach = 1.0;            ///< total length of the bones: 1, or 0 for a chain without length
+    double longest = 0.0;          ///< an upper bound of that in a chain with uneven scales
     bool is_out_of_reach = false;  ///< the target is farther from the origin than that
     double tolerance = 1e-4;       ///< chain lengths; radians
     std::uint32_t iterations = 0;  ///< maximum; 0: the solver's default
     const ReachOptions* options = nullptr;
+    bool is_uneven =
+        false;  ///< a link before the last scales its axes unevenly, so that bones change length as it turns
 
     glm::dvec3 tip{0};                  ///< computed by place
     glm::dquat tip_global{1, 0, 0, 0};  ///< computed by place
@@ -43,16 +48,24 @@ struct IkProblem {
     [[nodiscard]] double distance() const;        ///< tip to target, chain lengths
     [[nodiscard]] double rotation_error() const;  ///< radians; 0 if rotation does not count
     [[nodiscard]] bool is_reached() const;
+    /// Returns true if the target is out of reach and the tip as near to it as a straight chain can be. Limits may hold
+    /// a straight chain away from the target, where a bent one comes nearer.
+    [[nodiscard]] bool is_stretched_out() const;
     /// The quantity that the solvers minimise: the weighted sum of both errors squared.
     [[nodiscard]] double cost() const;
     void save();
     void restore();
+
+private:
+    void place_unevenly();
 };
 
 /// Returns the rotation moved inside the link's constraint.
 glm::dquat legal_local(const IkLink& link, const glm::dquat& local);
 /// The same with a slower method that stays closer: for a solver's starting point.
 glm::dquat nearest_legal_local(const IkLink& link, const glm::dquat& local);
+/// Returns the rotation that a link's limits prefer, or that in their middle.
+glm::dquat middle_local(const IkLink& link);
 /// As legal_local, but a step from link.local into the soft zone is halved.
 glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local);
 /// Returns a rotation vector in base space, scaled by the link's freedom about each of its axes.
@@ -65,6 +78,11 @@ inline Solver solver_of(const Chain& chain, const ReachOptions& options) {
 inline float tolerance_of(const Chain& chain, const ReachOptions& options) {
     const float tolerance = options.tolerance > 0.0f ? options.tolerance : chain.record.tolerance;
     return tolerance > 0.0f ? tolerance : 0.0f;
+}
+/// Returns the share of its length over which a chain slows near full reach; 0 if it can stretch instead.
+inline double softness_of(const Chain& chain, const ReachOptions& options) {
+    const bool can_stretch = chain.record.stretch > 0.0f;
+    return can_stretch ? 0.0 : clamped(options.softness, 0.0, 1.0, 0.0);
 }
 /// Returns how far the scales of a joint's axes may differ, as a share of them, and still count as one: what clips hold
 /// after rounding. The bones below are then off by a tenth of the default tolerance at most; if a tolerance is given,
@@ -109,22 +127,20 @@ glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dquat& rot
 // iterations.
 std::uint32_t solve_pull(IkProblem& problem);
 std::uint32_t solve_two_bone(IkProblem& problem);
-/// Moves the target of a two-bone problem nearer by its softness: near full reach, where a straight leg would snap, the
-/// tip slows down and approaches the limit asymptotically.
-void soften_target(IkProblem& problem);
-/// Returns the angle about a unit axis that takes the start of a chain least outside its constraint; of the legal ones
-/// the smallest, to either side, so that a mirrored chain turns the other way.
-/// \param rest_frame  the constraint's frame at rest, in base space
-/// \param start       the start's rotation, aimed at the target, in base space
+/// Returns the smallest angle about a unit axis, to either side, so that a mirrored chain turns the other way, that
+/// takes the start of a chain inside its constraint; 0 if none does. \param rest_frame  the constraint's frame at rest,
+/// in base space \param start       the start's rotation, aimed at the target, in base space
 double best_swivel(const Constraint& constraint, const glm::dquat& rest_frame, const glm::dquat& start,
                    const glm::dvec3& axis);
 /// Returns which of two equal rotations of a straight chain's joint with only_axis is preferred: true for the one
 /// against the axis, whose sign in the file carries no meaning. False for other joints.
 bool prefers_back(const Constraint* constraint);
-std::uint32_t solve_ccd(IkProblem& problem);
-std::uint32_t solve_fabrik(IkProblem& problem);
 std::uint32_t solve_aim(IkProblem& problem);
 std::uint32_t solve_least_squares(IkProblem& problem);
+/// Returns nothing, and does nothing, if the chain is too long or has limits of other kinds: see ik_newton.cpp.
+std::optional<std::uint32_t> solve_newton(IkProblem& problem);
+/// Solves from the pose at hand, or in closed form, and if that does not reach, from other starts: see ik_descend.cpp.
+std::uint32_t solve_from(IkProblem& problem, bool is_closed);
 /// Points every bone in turn at the target: for a chain that cannot reach it.
 void point_at_target(IkProblem& problem);
 

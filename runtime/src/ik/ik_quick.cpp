@@ -84,11 +84,8 @@ private:
         return off > kOutside * kOutside ? Side::outside : Side::edge;
     }
     [[nodiscard]] bool make_legal_within(Rotation& local) const {
-        auto [from, to, off] = limited(local);
+        const auto [from, to, off] = limited(local);
         if (off < kInside * kInside) return true;
-        // Nearly all of a clip's rotations of a hinge are beside its axis by rounding: any way inside is near enough.
-        if (off > kOutside * kOutside)
-            to = rotation_of(nearest_rotation(*constraint_, constraint_->shape, glm_of(from)));
         local = rotation_of(*rest_frame_) * to * conjugate(rotation_of(constraint_->frame));
         local = local * (1.0 / root(squared(local)));
         return false;
@@ -166,7 +163,8 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
     state.set_rotation(chain.record.start, glm::quat(upper));
     state.set_rotation(model.parents[chain.record.effector], glm::quat(glm_of(reach.lower)));
     if (limits.are_there()) make_end_legal(chain, pose, options);
-    return ReachResult{ReachStatus::reached, static_cast<float>(distance), 0.0f, 1};
+    const ReachStatus status = is_out_of_reach(limb, bend, reach) ? ReachStatus::out_of_reach : ReachStatus::reached;
+    return ReachResult{status, static_cast<float>(distance), 0.0f, 1};
 }
 
 std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& target, Pose& pose,
@@ -222,9 +220,9 @@ std::optional<ReachResult> reach_aim(const Chain& chain, const ReachTarget& targ
 /// Returns true if only a position is requested, including the chain's own settings.
 bool is_plain(const Chain& chain, const ReachTarget& target, const Pose& pose, const ReachOptions& options) {
     const ChainRecord& record = chain.record;
-    return options.influence == 1.0f && options.softness == 0.0f && !target.rotation && !(record.stretch > 0.0f) &&
-           !(record.compress > 0.0f) && std::isfinite(record.pole_angle) &&
-           record.tip_offset == std::array{0.0f, 0.0f, 0.0f} && pose.model().chain_weights(chain).empty();
+    return options.influence == 1.0f && !target.rotation && !(record.stretch > 0.0f) && !(record.compress > 0.0f) &&
+           std::isfinite(record.pole_angle) && record.tip_offset == std::array{0.0f, 0.0f, 0.0f} &&
+           pose.model().chain_weights(chain).empty();
 }
 
 bool is_two_bone(const Chain& chain, const ReachOptions& options) {
@@ -285,6 +283,7 @@ bool gather_limb(const Chain& chain, const ReachTarget& target, Pose& pose, cons
     put(second.scale, limbs.lower_scale, number);
     limbs.same_scale[0][number] = same_scale(chain, options);
     limbs.tolerance[0][number] = tolerance_of(chain, options);
+    limbs.softness[0][number] = softness_of(chain, options);
     put(pole.place, limbs.pole, number);
     put_flag(limbs.has_pole, pole.is_there);
     put_flag(limbs.is_pole_point, pole.is_point);

@@ -22,42 +22,22 @@ public:
         at_half_ = in * (glm::dquat(0.0, axis) * out);
     }
 
-    /// Returns the angle that takes the start least outside its constraint; of the legal ones the smallest, to either
-    /// side, so that a mirrored chain turns the other way.
+    /// See best_swivel.
     [[nodiscard]] double best_angle() const {
+        const double at_zero = excess(0.0);
+        if (at_zero <= kLegal) return 0.0;
         constexpr int kTurns = 24;
         constexpr double kStep = 2.0 * trig::kPi / kTurns;
-        double best = 0.0;
-        double least = excess(0.0);
-        const auto consider = [&](double angle, double here) {
-            if (here >= least) return;
-            least = here;
-            best = angle;
-        };
-        double before_there = least, before_back = least;
-        for (int i = 1; i <= kTurns / 2 && least > kLegal; ++i) {
-            const double there = excess(kStep * i);
-            const double back = excess(-kStep * i);
-            if (there <= kLegal || back <= kLegal) {
-                constexpr double kMore = 4.0;  // more than half a turn
-                const double one = there <= kLegal ? edge({kStep * (i - 1), before_there}, kStep * i) : kMore;
-                const double other = back <= kLegal ? edge({-kStep * (i - 1), before_back}, -kStep * i) : -kMore;
-                return one <= -other ? one : other;
-            }
-            if (there <= back) {
-                consider(kStep * i, there);
-            } else {
-                consider(-kStep * i, back);
-            }
-            before_there = there;
-            before_back = back;
+        Way there{kStep, {0.0, at_zero}}, back{-kStep, {0.0, at_zero}};
+        for (int i = 1; i <= kTurns / 2; ++i) {
+            const bool is_there = step(there), is_back = step(back);
+            if (!is_there && !is_back) continue;
+            constexpr double kMore = 4.0;  // more than half a turn
+            const double one = is_there ? edge(there.illegal, there.legal) : kMore;
+            const double other = is_back ? edge(back.illegal, back.legal) : -kMore;
+            return one <= -other ? one : other;
         }
-        for (double step = 0.5 * kStep; step > 1e-7 && least > kLegal; step *= 0.5) {
-            const double middle = best;
-            consider(middle - step, excess(middle - step));
-            consider(middle + step, excess(middle + step));
-        }
-        return best;
+        return 0.0;
     }
 
 private:
@@ -65,12 +45,63 @@ private:
     struct Sample {
         double angle, excess;
     };
+    /// A search to one side.
+    struct Way {
+        double step;
+        Sample last;
+        Sample before = last;
+        Sample illegal = last;  ///< with `legal`, once that is found: the angles that the edge is between
+        double legal = 0.0;
+    };
+
+    /// Takes a step; returns true if it has found a legal angle, also between the last two steps.
+    [[nodiscard]] bool step(Way& way) const {
+        const double angle = way.last.angle + way.step;
+        const Sample now{angle, excess(angle)};
+        if (now.excess <= kLegal) {
+            way.illegal = way.last;
+            way.legal = angle;
+            return true;
+        }
+        // The excess changes by no more than the angle does.
+        const bool is_least = way.last.excess < now.excess && way.last.excess <= way.before.excess;
+        const bool is_found = is_least && way.last.excess < std::abs(way.step) && find_between(way, now);
+        way.before = way.last;
+        way.last = now;
+        return is_found;
+    }
+
+    /// Looks for a legal angle about a least sample, by golden section.
+    [[nodiscard]] bool find_between(Way& way, const Sample& after) const {
+        constexpr double kGolden = 0.381966011250105;
+        double low = way.before.angle, middle = way.last.angle, high = after.angle;
+        double least = way.last.excess;
+        for (int i = 0; i < 16; ++i) {
+            const bool is_high = std::abs(high - middle) > std::abs(middle - low);
+            const double next = middle + kGolden * ((is_high ? high : low) - middle);
+            const double here = excess(next);
+            if (here <= kLegal) {
+                way.illegal = way.before;
+                way.legal = next;
+                return true;
+            }
+            if (here < least) {
+                (is_high ? low : high) = middle;
+                middle = next;
+                least = here;
+            } else {
+                (is_high ? high : low) = next;
+            }
+            if (least > std::abs(high - low)) return false;
+        }
+        return false;
+    }
 
     /// Returns how far a rotation takes the start outside its constraint, in radians.
     [[nodiscard]] double excess(double angle) const {
         const trig::SinCos half = trig::sin_cos(0.5 * angle);
         const glm::dquat R = at_zero_ * half.cos + at_half_ * half.sin;
-        return angle_between(quick_legal_rotation(constraint_, constraint_.shape, R), R);
+        return bendy::excess(constraint_, constraint_.shape, R);
     }
 
     /// Returns the first legal angle between an illegal and a legal one, to kNear. Close to it, the excess is nearly

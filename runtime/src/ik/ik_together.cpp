@@ -93,7 +93,8 @@ private:
         state.set_rotation(state.data->parents[chain->record.effector], glm::quat(lower));
         if (has_limits) make_end_legal(*chain, pose_, options);
         carry_to_tip(*chain, limbs_[limb].carried, pose_);
-        note(limbs_[limb].number, ReachResult{ReachStatus::reached, static_cast<float>(distance), 0.0f, 1});
+        const ReachStatus status = block_.out_of_reach[limb] > 0.0 ? ReachStatus::out_of_reach : ReachStatus::reached;
+        note(limbs_[limb].number, ReachResult{status, static_cast<float>(distance), 0.0f, 1});
         return true;
     }
 

@@ -148,23 +148,9 @@ bool prefers_back(const Constraint* constraint) {
     return constraint != nullptr && glm::dot(only_axis(*constraint), preferred_side(*constraint)) < 0.0;
 }
 
-void soften_target(IkProblem& problem) {
-    const std::size_t middle = find_middle(problem);
-    const glm::dvec3 way = problem.target - problem.origin;
-    const double distance = glm::length(way);
-    if (middle == 0 || !(distance > 1e-12)) return;
-    const glm::dvec3& knee = problem.links[middle].position;
-    const double full = glm::length(knee - problem.origin) + glm::length(problem.tip - knee);
-    const double zone = full * std::clamp(double{problem.options->softness}, 0.0, 1.0);
-    const double hard = full - zone;
-    if (!(zone > 0.0) || distance <= hard) return;
-    const double past = (distance - hard) / zone;
-    problem.target = problem.origin + way * ((hard + zone * past / (1.0 + past)) / distance);
-}
-
 std::uint32_t solve_two_bone(IkProblem& problem) {
     const std::size_t middle = find_middle(problem);
-    if (middle == 0) return solve_ccd(problem);  // there are not two bones
+    if (middle == 0) return 0;  // there are not two bones
     const glm::dvec3& knee = problem.links[middle].position;
     const double distance = glm::length(problem.target - problem.origin);
     bend(problem, middle, distance);

@@ -122,8 +122,9 @@ struct Space {
 
 /// Quantities derived from a limb.
 struct Reaching {
-    Vector way;       ///< start to target, in base space
+    Vector way;       ///< start to target, or to where the target's softness lets the tip go; in base space
     Number distance;  ///< its squared length
+    Number beyond;    ///< from there to the target, as a share of `way`
     Vector rest;      ///< middle to tip, in the start's space
     Rotation upper, lower;
 };
@@ -182,6 +183,14 @@ BENDY_ALWAYS_INLINE Number tolerance_in(const Space& base, Number metres, Number
     return chosen(metres > Number(0.0), greater(metres / root(scale), kLeast * length), kOfLength * length);
 }
 
+/// Returns how far a chain goes towards a target at a distance: near its full length more and more slowly, and never
+/// farther than that. The zone in which it is slower has a length of its own; 0: there is none.
+BENDY_ALWAYS_INLINE Number softened(Number distance, Number full, Number zone) {
+    const Number past = distance - (full - zone);
+    const Number soft = full - zone + zone * (past / (zone + past));
+    return chosen(both(zone > Number(0.0), past > Number(0.0)), soft, distance);
+}
+
 /// Finds the bones and the way to the target. False if these are not two bones of even scale.
 BENDY_ALWAYS_INLINE Mask begin(const Limbs& limb, Reaching& reach, Bend& bend) {
     reach.upper = load(limb.upper);
@@ -194,6 +203,14 @@ BENDY_ALWAYS_INLINE Mask begin(const Limbs& limb, Reaching& reach, Bend& bend) {
     bend.axis = load(limb.axis);
     bend.bone = scaled(upper_scale, load(limb.middle));
     reach.rest = turned(reach.lower, scaled(lower_scale * mean_of(upper_scale), load(limb.tip)));
+    const Number full = root(squared(bend.bone)) + root(squared(reach.rest));
+    const Number far = root(reach.distance);
+    const Number soft = softened(far, full, full * load(limb.softness));
+    const Number share = soft / far;
+    const Mask is_soft = soft < far;
+    reach.beyond = chosen(is_soft, far / soft - 1.0, Number(0.0));
+    reach.way = chosen(is_soft, reach.way * share, reach.way);
+    reach.distance = chosen(is_soft, soft * soft, reach.distance);
     return both(are_units, both(is_even(upper_scale, same), is_even(lower_scale, same)));
 }
 
@@ -266,6 +283,13 @@ BENDY_ALWAYS_INLINE void find_turns(const Bend& bend, Mask is_fixed, Mask prefer
     turns[1] = {chosen(is_other, ahead.cosine, back.cosine), chosen(is_other, ahead.sine, back.sine)};
 }
 
+/// Whether the target is farther from the start than the limb is long.
+BENDY_ALWAYS_INLINE Mask is_out_of_reach(const Limbs& limb, const Bend& bend, const Reaching& reach) {
+    const Number full = root(squared(bend.bone)) + root(squared(reach.rest));
+    const Number far = root(reach.distance) * (1.0 + reach.beyond);
+    return far > full + tolerance_in(load_base(limb), load(limb.tolerance), full);
+}
+
 /// Computes the middle joint's rotation after the turn; false if the turn is half a revolution.
 BENDY_ALWAYS_INLINE Mask turn_middle(const Bend& bend, const Turn& turn, const Rotation& before, Rotation& after) {
     const Vector by = bend.axis * turn.sine;
@@ -319,8 +343,8 @@ BENDY_ALWAYS_INLINE Mask aim_with_pole(const Limbs& limb, const Bend& bend, cons
     return is_clear;
 }
 
-/// Completes a reach after the middle joint's turn. Returns the distance from the tip to the target in metres; negative
-/// if that is outside the tolerance.
+/// Completes a reach after the middle joint's turn. Returns the distance from the tip to the target in metres, negative
+/// if the tip is not where it should be to within the tolerance.
 BENDY_ALWAYS_INLINE Number finish(const Limbs& limb, const Bend& bend, const Turn& turn, Reaching& reach) {
     const Vector reached = tip_after(bend, turn);
     const Rotation before = reach.upper;
@@ -337,7 +361,7 @@ BENDY_ALWAYS_INLINE Number finish(const Limbs& limb, const Bend& bend, const Tur
     const Number distance = root(reach.distance);
     const Number left = absolute(root(squared(reached)) - distance);  // the direction is already right
     const Number tolerance = tolerance_in(base, load(limb.tolerance), length);
-    const Vector missed = to_model(base, reach.way * (left / distance));
+    const Vector missed = to_model(base, reach.way * (left / distance + reach.beyond));
     const Mask is_there = both(is_aimed, both(left <= tolerance, squared(reach.upper) > Number(0.5)));
     return chosen(is_there, root(squared(missed)), -1.0);
 }

@@ -111,6 +111,8 @@ inline void solve(TwoBoneBlock& block) {
     find_turns(bend, is_fixed, load_flag(limb.prefers_back), turns);
     const Mask is_turned = turn_middle(bend, turns[0], before, reach.lower);
     const Number distance = finish(limb, bend, turns[0], reach);
+    const Mask is_far = is_out_of_reach(limb, bend, reach);
+    _mm256_storeu_pd(block.out_of_reach, chosen(is_far, Number(1.0), Number(0.0)).v);
     store(reach.upper, block.upper);
     store(reach.lower, block.lower);
     _mm256_storeu_pd(block.distance, chosen(both(are_plain, both(can_bend, is_turned)), distance, -1.0).v);

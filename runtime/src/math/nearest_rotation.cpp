@@ -571,4 +571,34 @@ glm::dquat quick_legal_rotation(const ConstraintView& constraint, const LimitSha
     return nearest_rotation(constraint, shape, R);
 }
 
+double excess(const ConstraintView& constraint, const LimitShape& shape, const glm::dquat& R) {
+    if (constraint.model() != ConstraintModel::swing_twist_ellipse)
+        return angle_between(quick_legal_rotation(constraint, shape, R), R);
+    const double length = std::sqrt(R.w * R.w + R.x * R.x);
+    const glm::dvec2 twist = length < 1e-12 ? glm::dvec2(1.0, 0.0) : glm::dvec2(R.w, R.x) / length;
+    const glm::dvec2 legal = nearest_turn(shape.angles[0], twist);
+    // Sines of half angles: for the swing the distance to the ellipse to first order, which is zero on it.
+    const double off_twist = legal == twist ? 0.0 : std::abs(twist.x * legal.y - twist.y * legal.x);
+    const Swing swing(length, twist.x * R.y - twist.y * R.z, twist.x * R.z + twist.y * R.y);
+    if (ellipse_holds(shape, swing)) return 2.0 * off_twist;
+    const HalfAxes axes = half_axes(shape, swing.y, swing.z);
+    const double least = 1e-6;  // an axis without width
+    const double a = std::max(axes.y, least), b = std::max(axes.z, least);
+    const double y = swing.y / a, z = swing.z / b;
+    const double size = std::sqrt(y * y + z * z);
+    const double slope = std::sqrt(y * y / (a * a) + z * z / (b * b)) / size;
+    return 2.0 * (off_twist + (size - 1.0) / slope);
+}
+
+std::array<double, 3> euler_angles(const ConstraintView& constraint, const LimitShape& shape, const glm::dquat& R) {
+    const EulerBox box = make_box(constraint.euler_order(), shape);
+    const Angles angles = to_angles(box.order, R);
+    const Angles other = other_form(angles);
+    const auto outside = [&](const Angles& form) {
+        const Angles inside = nearest_angles(box, form);
+        return angle_between(turn(box.order, inside), R);
+    };
+    return outside(other) < outside(angles) ? other : angles;
+}
+
 }  // namespace bendy

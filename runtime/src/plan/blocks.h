@@ -180,6 +180,7 @@ struct alignas(8 * limbs) TwoBoneLimbs {
     double axis[3][limbs];  ///< if is_fixed: the only axis about which the middle joint bends, in the start's space
     double same_scale[1][limbs];  ///< how far the scales of a joint's axes may differ, as a share of them
     double tolerance[1][limbs];   ///< metres; 0: a share of the limb's length
+    double softness[1][limbs];    ///< share of the limb's length over which it slows near full reach
     double roll[2][limbs];        ///< cosine and sine of the angle from the pole to the bend
     double has_pole[1][limbs], is_pole_point[1][limbs], is_rolled[1][limbs];
     double has_limits[1][limbs];
@@ -193,7 +194,8 @@ struct TwoBoneBlock {
     TwoBoneLimbs<kLimbs> limbs;  ///< any numbers where there is none
     double upper[4][kLimbs];     ///< solved, of nearly unit length
     double lower[4][kLimbs];
-    double distance[kLimbs];  ///< metres between tip and target; negative: not solved
+    double distance[kLimbs];      ///< metres between tip and target; negative: not solved
+    double out_of_reach[kLimbs];  ///< 1: the target is farther away than the limb is long
 };
 
 // ---- Streams of compact files

@@ -23,18 +23,25 @@ struct IkLink {
     const Constraint* constraint = nullptr;  ///< null: free
     glm::dvec3 freedom{1};                   ///< 0 to 1 about the frame's axes: weight * (1 - stiffness)
     double bone_length = 0.0;
+    // Only in a chain whose scales are uneven; the bone is then that of the chain as it is placed.
+    glm::dmat3 shape;  ///< the joint's scale and shear
+    glm::dvec3 end;    ///< to the next link or the tip, before that
     std::uint32_t joint = 0;
     bool is_fixed = false;  ///< no freedom about any axis
 
     // Computed by the problem's `place`.
     glm::dquat global;
     glm::dvec3 position;
+    glm::dmat3 space;  ///< of a chain whose scales are uneven: from the parent's space to base space
+    glm::dvec3 arm;    ///< of such a chain: to the tip, in the parent's space
 
     // Used by the solvers.
-    glm::dquat saved;  ///< a saved rotation
+    glm::dquat saved;  ///< a saved rotation; at first that of the pose that came in, legal or not
     glm::dquat trial;
     glm::dmat3 mobility;
-    glm::dvec3 goal;
+    glm::dquat legal;   ///< as it came in, moved inside the limits
+    glm::dquat closed;  ///< in the closed form
+    glm::dquat best;
 };
 
 }  // namespace bendy

@@ -271,7 +271,7 @@ private:
         options.solver = solver;
         options.obey_constraints = plan_.options.obey_constraints;
         // Without a pole the solver keeps the plane in which a limb is bent.
-        options.iterations = kIterations;
+        options.softness = 0.0f;
         options.restarts = 0;
         // A knee with limits knows where it bends to.
         if (!has_limits(plan)) bend_a_little(plan, limb);
@@ -286,8 +286,6 @@ private:
             if (const Constraint* constraint = plan_.target.constraint(joint)) (void)constrain(*constraint);
         }
     }
-
-    static constexpr std::uint32_t kIterations = 4;  // of least squares, where limits stop the two-bone solver
 
     RetargetPlan& plan_;
     PoseState& source_;

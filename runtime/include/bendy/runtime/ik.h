@@ -33,11 +33,12 @@ struct ReachOptions {
     std::uint32_t iterations = 0;  ///< maximum; least squares: for each starting point
     float tolerance = 0.0f;   ///< metres, default 0.0001 of the chain's length; for rotation the same number in radians
     float influence = 1.0f;   ///< 0 to 1: how far the solution is blended into the pose
-    float softness = 0.0f;    ///< 0 to 1: two-bone: the fraction of its length over which the chain slows near full
-                              ///< reach
+    float softness = 0.005f;  ///< 0 to 1: the share of its length over which a chain slows near full reach, where a
+                              ///< straight knee would snap: the tip stays behind the target by up to that share. Not
+                              ///< of aim and pull, nor of a chain that can stretch; 0: off
     float gain = 1.0f;        ///< pull: radians per chain length of distance
     float step_limit = 0.2f;  ///< pull: radians per joint and call
-    std::uint32_t restarts = 8;     ///< least squares: number of other starting points to try when it is stuck
+    std::uint32_t restarts = 4;  ///< number of other poses to start from, at most 4, where the first one does not reach
     std::optional<glm::vec3> pole;  ///< two-bone, aim: point in model space; default: the chain's pole joint or vector
     bool obey_constraints = true;
     /// Afterwards, moves the joint that the chain follows, with its descendants, to the tip: a foot that is not a child
@@ -47,7 +48,7 @@ struct ReachOptions {
 };
 
 enum class ReachStatus : std::uint8_t {
-    reached,       ///< the tip is at the target, within the tolerance
+    reached,       ///< the tip is at the target, within the tolerance and what the softness keeps it behind
     out_of_reach,  ///< the target is farther away than the chain is long: it points there, within its limits
     not_reached,   ///< stopped at the nearest solution found; aim: the tip does not point at the target
     aimed,         ///< only aim: the tip's Z axis points at the target within the tolerance, at any distance
@@ -69,14 +70,16 @@ struct ReachResult {
 /// the same pose on every machine; with other kernels the joint matrices at the start may differ in the last digit.
 ///     pull           Anderson's and Elias' force; one step per call, so it takes several frames to arrive
 ///     two_bone       closed form; in a longer chain, the start and a middle joint turn
-///     ccd            cyclic coordinate descent, from the tip up
-///     fabrik         forward and backward reaching, both passes within the constraints
 ///     aim            turns the tip's Z axis towards the target, as in looking at it; each joint does a share
-///     least_squares  damped least squares with restarts: the most reliable
-/// If two_bone, ccd or fabrik stops short of a target that is within the chain's length, least_squares continues from
-/// there; iterations and restarts apply to it too. Solver::any: two_bone for chains of two bones, otherwise
-/// least_squares. A mirrored chain and target give a mirrored result, provided that the chain is bent, has a pole, or
-/// its constraints allow it to turn farther to one side.
+///     least_squares  all joints at once. Up to 10 links, by Newton's method in the coordinates of the limits: what the
+///                    target leaves open stays nearest to the pose that came in, so that the result follows pose and
+///                    target smoothly; longer chains and soft zones, by damped least squares
+///     ccd, fabrik    as least_squares: names that files hold for programs that have these solvers
+/// If two_bone stops short of its target, least_squares continues from there; iterations and restarts apply to it too.
+/// Where limits forbid to reach, a few other poses are tried as starts, and the one that comes nearest counts: see
+/// docs/decisions/0083. Solver::any: two_bone for chains of two bones, otherwise least_squares. A mirrored chain and
+/// target give a mirrored result, provided that the chain is bent, has a pole, or its constraints allow it to turn
+/// farther to one side.
 ///
 /// A target that is not reached is a result, not an error. Returns an error, and leaves the pose unchanged, if the
 /// chain is null or does not belong to the pose's model, or if a number in the pose or the target is not finite.

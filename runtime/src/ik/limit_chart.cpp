@@ -1,0 +1,172 @@
+#include "limit_chart.h"
+
+#include "math/nearest_rotation.h"
+#include "math/rotation.h"
+
+#include <bendy/format/trig.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bendy {
+namespace {
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
+/// Returns the tangent of an angle from its sine; both of half a limit.
+double tangent_of_half(double sine) {
+    return sine / std::sqrt(std::max(1e-24, 1.0 - sine * sine));
+}
+
+glm::dvec3 unit_axis(int axis) {
+    glm::dvec3 v(0.0);
+    v[axis] = 1.0;
+    return v;
+}
+
+/// Returns the square of a number in half axes of an ellipse: 0 if both are 0.
+double squared_share(double value, double half_axis) {
+    const double part = half_axis != 0.0 ? value / half_axis : 0.0;
+    return part * part;
+}
+
+}  // namespace
+
+bool LimitChart::begin(const IkLink& link) {
+    rest_frame_ = link.rest_frame;
+    frame_ = link.frame;
+    kind_ = Kind::free;
+    size_ = link.is_fixed ? 0 : 3;
+    low_.fill(-kUnlimited);
+    high_.fill(kUnlimited);
+    if (link.constraint == nullptr || link.is_fixed) return true;
+    const Constraint& constraint = *link.constraint;
+    if (constraint.has_soft_zone) return false;
+    const LimitShape& shape = constraint.shape;
+    const auto put_angle = [&](std::size_t to, const AngleRange& range) {
+        if (range.half >= trig::kPi) return;
+        low_[to] = range.middle - range.half;
+        high_[to] = range.middle + range.half;
+    };
+    switch (constraint.model()) {
+        case ConstraintModel::hinge:
+            kind_ = Kind::hinge;
+            size_ = 1;
+            put_angle(0, shape.angles[0]);
+            return true;
+        case ConstraintModel::swing_twist_ellipse:
+        case ConstraintModel::swing_twist_pyramid: {
+            const bool is_ellipse = constraint.model() == ConstraintModel::swing_twist_ellipse;
+            kind_ = is_ellipse ? Kind::ellipse : Kind::pyramid;
+            for (std::size_t i = 0; i < 2; ++i) {
+                if (is_ellipse && (shape.swing_low[i] > 1.0 || shape.swing_high[i] > 1.0)) return false;  // a band
+                low_[i] = shape.swing_low[i] > 1.0 ? -kUnlimited : -tangent_of_half(shape.swing_low[i]);
+                high_[i] = shape.swing_high[i] > 1.0 ? kUnlimited : tangent_of_half(shape.swing_high[i]);
+            }
+            put_angle(2, shape.angles[0]);
+            return true;
+        }
+        case ConstraintModel::euler_box: {
+            kind_ = Kind::euler;
+            const auto axes = axes_of(constraint.euler_order());
+            for (std::size_t i = 0; i < 3; ++i) {
+                order_[i] = static_cast<int>(axes[2 - i]);
+                put_angle(i, shape.angles[axes[2 - i]]);
+            }
+            return true;
+        }
+        default:
+            return constraint.model() == ConstraintModel::free;
+    }
+}
+
+void LimitChart::read(const IkLink& link) {
+    if (size_ == 0) return;
+    rebase(link);
+    if (kind_ == Kind::free) return;
+    const glm::dquat R = upper_half(glm::conjugate(rest_frame_) * link.local * frame_);
+    const auto put_angle = [&](std::size_t to, double angle) {
+        const bool is_limited = high_[to] < kUnlimited;
+        const double middle = is_limited ? 0.5 * (low_[to] + high_[to]) : 0.0;
+        values_[to] = middle + std::remainder(angle - middle, 2.0 * trig::kPi);
+    };
+    if (kind_ == Kind::euler) {
+        const auto angles = euler_angles(*link.constraint, link.constraint->shape, R);
+        for (std::size_t i = 0; i < 3; ++i) put_angle(i, angles[2 - i]);
+    } else {
+        const double length = std::sqrt(R.w * R.w + R.x * R.x);
+        const double c = length < 1e-12 ? 1.0 : R.w / length, s = length < 1e-12 ? 0.0 : R.x / length;
+        put_angle(size_ - 1, 2.0 * trig::atan2(s, c));
+        if (kind_ != Kind::hinge) {
+            const double w = std::max(length, 1e-9);
+            values_[0] = (c * R.y - s * R.z) / w;
+            values_[1] = (c * R.z + s * R.y) / w;
+        }
+    }
+    (void)move({});
+}
+
+std::array<glm::dvec3, 3> LimitChart::axes() const {
+    std::array<glm::dvec3, 3> found{};
+    switch (kind_) {
+        case Kind::free:
+            return {unit_axis(0), unit_axis(1), unit_axis(2)};
+        case Kind::hinge:
+            found[0] = rest_frame_ * unit_axis(0);
+            return found;
+        case Kind::euler: {
+            glm::dquat outer = rest_frame_;
+            for (std::size_t i = 0; i < 3; ++i) {
+                found[i] = outer * unit_axis(order_[i]);
+                outer = outer * about(order_[i], values_[i]);
+            }
+            return found;
+        }
+        default: {
+            const double y = values_[0], z = values_[1];
+            const double size = 1.0 + y * y + z * z;
+            const glm::dquat swing = glm::dquat(1.0, 0.0, y, z) / std::sqrt(size);
+            found[0] = rest_frame_ * (glm::dvec3(-z, 1.0, 0.0) * (2.0 / size));
+            found[1] = rest_frame_ * (glm::dvec3(y, 0.0, 1.0) * (2.0 / size));
+            found[2] = rest_frame_ * (swing * unit_axis(0));
+            return found;
+        }
+    }
+}
+
+glm::dquat LimitChart::move(const Numbers& step) {
+    for (std::size_t i = 0; i < size_; ++i) values_[i] = std::clamp(values_[i] + step[i], low_[i], high_[i]);
+    if (kind_ == Kind::ellipse) {
+        double& y = values_[0];
+        double& z = values_[1];
+        const double size =
+            squared_share(y, y < 0.0 ? low_[0] : high_[0]) + squared_share(z, z < 0.0 ? low_[1] : high_[1]);
+        if (size > 1.0) {
+            y /= std::sqrt(size);
+            z /= std::sqrt(size);
+        }
+    }
+    if (kind_ == Kind::free) return glm::normalize(from_vector({values_[0], values_[1], values_[2]}) * local_);
+    return glm::normalize(rest_frame_ * rotation() * glm::conjugate(frame_));
+}
+
+glm::dquat LimitChart::rotation() const {
+    if (kind_ == Kind::hinge) return about(0, values_[0]);
+    if (kind_ == Kind::euler)
+        return about(order_[0], values_[0]) * about(order_[1], values_[1]) * about(order_[2], values_[2]);
+    return glm::normalize(glm::dquat(1.0, 0.0, values_[0], values_[1])) * about(0, values_[2]);
+}
+
+LimitChart::Edge LimitChart::edge() const {
+    if (kind_ != Kind::ellipse) return {};
+    const double y = values_[0], z = values_[1];
+    const double a = y < 0.0 ? low_[0] : high_[0], b = z < 0.0 ? low_[1] : high_[1];
+    constexpr double kOn = 1e-9;
+    if (a == 0.0 || b == 0.0 || squared_share(y, a) + squared_share(z, b) < 1.0 - kOn) return {};
+    const double aa = a * a, bb = b * b;
+    const double ny = y / aa, nz = z / bb;
+    const double length = std::sqrt(ny * ny + nz * nz);
+    return {true, ny / length, nz / length, 1.0 / (aa * bb * length * length * length)};
+}
+
+}  // namespace bendy

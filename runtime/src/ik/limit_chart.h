@@ -1,0 +1,68 @@
+#pragma once
+
+#include "pose/ik_link.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+// The coordinates of a joint's rotation in which its limits are intervals, and the swing's ellipse an ellipse.
+namespace bendy {
+
+/// The rotation of a link as up to three numbers, each of which turns it about one axis: the angle of a hinge; Euler
+/// angles, the last rotation first; the tangents of half the swing's angles about Y and Z, which are (y, z) / w of its
+/// quaternion, and the twist; or a step from the current rotation, where nothing limits it.
+class LimitChart {
+public:
+    using Numbers = std::array<double, 3>;
+
+    /// Returns false if the link's limits have no such coordinates.
+    [[nodiscard]] bool begin(const IkLink& link);
+    /// Sets the numbers from the link's rotation, which is legal.
+    void read(const IkLink& link);
+
+    /// Starts a step of a free link from its rotation.
+    void rebase(const IkLink& link) {
+        if (kind_ != Kind::free) return;
+        local_ = link.local;
+        values_.fill(0.0);
+    }
+
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] const Numbers& low() const { return low_; }
+    [[nodiscard]] const Numbers& high() const { return high_; }
+    [[nodiscard]] const Numbers& values() const { return values_; }
+
+    /// Returns the link's angular velocities, in its parent's space, as each number grows.
+    [[nodiscard]] std::array<glm::dvec3, 3> axes() const;
+    /// Changes the numbers by a step, moves them inside the limits, and returns the link's rotation.
+    glm::dquat move(const Numbers& step);
+    /// Returns to other numbers of this chart.
+    void set(const Numbers& values) { values_ = values; }
+
+    /// The edge of a swing's ellipse, if the swing is there: the first two numbers.
+    struct Edge {
+        bool is_there = false;
+        double y = 0.0, z = 0.0;  ///< the outward normal, of unit length
+        double curvature = 0.0;
+    };
+    [[nodiscard]] Edge edge() const;
+
+private:
+    enum class Kind : std::uint8_t { free, hinge, ellipse, pyramid, euler };
+
+    [[nodiscard]] glm::dquat rotation() const;
+
+    Kind kind_ = Kind::free;
+    std::size_t size_ = 0;
+    Numbers values_{}, low_{}, high_{};
+    std::array<int, 3> order_{};  ///< axes of Euler angles
+    glm::dquat rest_frame_{1, 0, 0, 0}, frame_{1, 0, 0, 0};
+    glm::dquat local_{1, 0, 0, 0};  ///< of a free link
+};
+
+}  // namespace bendy
