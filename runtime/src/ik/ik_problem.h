@@ -85,10 +85,10 @@ inline double softness_of(const Chain& chain, const ReachOptions& options) {
     return can_stretch ? 0.0 : clamped(options.softness, 0.0, 1.0, 0.0);
 }
 /// Returns how far the scales of a joint's axes may differ, as a share of them, and still count as one: what clips hold
-/// after rounding. The bones below are then off by a tenth of the default tolerance at most; if a tolerance is given,
-/// by a millionth of their length.
+/// after rounding, and what exporters leave. The bones below are then off by half of the default tolerance at most; if
+/// a tolerance is given, by a millionth of their length.
 inline float same_scale(const Chain& chain, const ReachOptions& options) {
-    constexpr float kRounded = 1e-5f, kExact = 1e-6f;
+    constexpr float kRounded = 5e-5f, kExact = 1e-6f;
     return tolerance_of(chain, options) > 0.0f ? kExact : kRounded;
 }
 
@@ -128,8 +128,8 @@ glm::dquat turn_link(IkProblem& problem, std::size_t link, const glm::dquat& rot
 std::uint32_t solve_pull(IkProblem& problem);
 std::uint32_t solve_two_bone(IkProblem& problem);
 /// Returns the smallest angle about a unit axis, to either side, so that a mirrored chain turns the other way, that
-/// takes the start of a chain inside its constraint; 0 if none does. \param rest_frame  the constraint's frame at rest,
-/// in base space \param start       the start's rotation, aimed at the target, in base space
+/// takes the start of a chain inside its constraint; 0 if none does. `rest_frame` is the constraint's frame at rest,
+/// and `start` the start's rotation, aimed at the target; both in base space.
 double best_swivel(const Constraint& constraint, const glm::dquat& rest_frame, const glm::dquat& start,
                    const glm::dvec3& axis);
 /// Returns which of two equal rotations of a straight chain's joint with only_axis is preferred: true for the one
