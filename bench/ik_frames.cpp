@@ -103,9 +103,10 @@ public:
     glm::vec3 start(Pose& pose) const { return {pose.model_space()[chain_.record.start][3]}; }
     double length(Pose& pose) const {
         double sum = glm::distance(tip(pose), glm::vec3(pose.model_space()[joints.back()][3]));
-        for (std::size_t i = 1; i < joints.size(); ++i)
+        for (std::size_t i = 1; i < joints.size(); ++i) {
             sum += glm::distance(glm::vec3(pose.model_space()[joints[i]][3]),
                                  glm::vec3(pose.model_space()[joints[i - 1]][3]));
+        }
         return sum;
     }
     /// Returns what to look at: a place, one that circles, one that passes behind, or one 27 mm beside what the clip
@@ -245,9 +246,10 @@ Tally measure(const Model& model, const Chain& chain, Motion motion, const Setti
             const std::vector<glm::dmat3> own = judged.turns(pose);
             const float share = static_cast<float>(frame) / static_cast<float>(frames - 1);
             glm::vec3 target = place;
-            if (motion == Motion::moving)
+            if (motion == Motion::moving) {
                 target +=
                     0.2f * length * glm::vec3(std::sin(3.0f * time), std::cos(3.0f * time), std::sin(2.0f * time));
+            }
             if (motion == Motion::leaving) target = tip + share * (far - tip);
             if (motion == Motion::beside) target = judged.tip(pose) + glm::vec3(0.01f, 0.02f, -0.015f);
             if (kind_of(chain) == Kind::aim) target = judged.look_at(pose, motion, share, place - start);
@@ -330,9 +332,10 @@ int run(int argc, char** argv) {
         for (const Chain& chain : model->chains()) {
             for (std::size_t motion = 0; motion < kMotions.size(); ++motion) {
                 Tally tally = measure(*model, chain, static_cast<Motion>(motion), settings);
-                if (settings.is_detailed)
+                if (settings.is_detailed) {
                     print(file.substr(file.rfind('/') + 1) + " " + std::string(chain.name) + " " + kMotions[motion],
                           tally);
+                }
                 all[static_cast<std::size_t>(kind_of(chain))][motion].add(tally);
             }
         }
