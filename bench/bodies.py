@@ -91,7 +91,7 @@ def line_of(path):
     if not limbs:
         return ("animal" if roles else "none", *[""] * 6), wrong
     if rig and rig["bones"] == "none":
-        wrong.append("it is no human")
+        wrong.append("it is not human")
     found = stand(model, joints)
     records = [chunk for chunk in bendy.inspect(made).walk() if chunk.id == "STND"]
     pose = EVIDENCE[records[0].fields["evidence"]] if records else "rest"

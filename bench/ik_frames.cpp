@@ -9,11 +9,11 @@
 #include <limits>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
-// bendy_bench_ik_frames [--targets N] [--seconds N] [--judge N] FILE.bendy...: chains that reach while a clip plays, 60
-// frames a second. For each kind of chain, over all files:
+// bendy_bench_ik_frames [--targets N] [--seconds N] [--judge N] [--chains] [--softness N] [--restarts N] FILE.bendy...:
+// chains that reach while a clip plays, 60 frames a second; --softness in thousandths. For each kind of chain, over all
+// files, and with --chains for each chain:
 //     jumps    share of the frames in which a joint of the chain turns by over 5 degrees more than the clip turns one,
 //              three times the target's displacement in its distances from the chain's start included
 //     time     of one reach, the better of two, microseconds

@@ -70,7 +70,7 @@ def places(document):
 
 
 def directions(place):
-    """bone -> left, up, forward of its direction; nothing for what is no whole human"""
+    """bone -> left, up, forward of its direction; empty unless all bones of a human are there"""
     if not {"head", "leftFoot", "rightFoot", "leftUpperLeg", "rightUpperLeg"} <= set(place):
         return {}
     up = unit(less(place["head"], tuple((a + b) / 2 for a, b in zip(place["leftFoot"], place["rightFoot"], strict=True))))

@@ -161,6 +161,21 @@ TEST(Ik, ThePoleDecidesWhereTheKneeIs) {
     EXPECT_LE(glm::length(position_of(pose, 2) - target), 1e-4f);
 }
 
+TEST(Ik, ThePoleMovesTheKneeOfALegThatIsAlreadyThere) {
+    test::ModelSpec spec = rope(2);
+    spec.chains[0].compress = 0.01f;  // goes the long way
+    const Owned model(build_file(spec));
+    Pose pose(*model);
+    const glm::vec3 target(0.0f, 1.2f, 0.0f);
+    ReachOptions options;
+    for (const glm::vec3& pole : {glm::vec3(5.0f, 0.5f, 0.0f), glm::vec3(0.0f, 0.5f, 5.0f)}) {
+        options.pole = pole;
+        EXPECT_TRUE(reach(pose, model->chain("0"), target, options));
+        EXPECT_LE(glm::length(position_of(pose, 2) - target), 2e-4f);
+        EXPECT_GT(glm::dot(position_of(pose, 1), glm::normalize(pole - glm::vec3(0.0f, 0.5f, 0.0f))), 0.79f);
+    }
+}
+
 TEST(Ik, ThePoleAngleTurnsTheBendAwayFromThePole) {
     test::ModelSpec spec = rope(2);
     spec.chains[0].pole_vector = {1.0f, 0.0f, 0.0f};

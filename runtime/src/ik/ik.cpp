@@ -234,8 +234,10 @@ private:
         if (chosen == Solver::aim) return solve_aim(problem_);
         if (chosen == Solver::pull) return solve_pull(problem_);
         if (is_far_ && problem_.position_weight > 0.0) point_at_target(problem_);
-        return problem_.is_reached() || problem_.is_stretched_out() ? 0
-                                                                    : solve_from(problem_, chosen == Solver::two_bone);
+        // Two bones turn to their pole even if the tip is already there.
+        const bool is_closed = chosen == Solver::two_bone;
+        if (!is_closed && (problem_.is_reached() || problem_.is_stretched_out())) return 0;
+        return solve_from(problem_, is_closed);
     }
 
     /// Scales all bones by the same factor, within the range that the chain allows.

@@ -31,7 +31,7 @@ public:
         problem_.place();
         iterations_ += solve_two_bone(problem_);
         keep(&IkLink::closed, &IkLink::local);
-        if (problem_.is_reached()) {
+        if (problem_.is_reached() || problem_.is_stretched_out()) {
             consider();
             return true;
         }
@@ -121,7 +121,7 @@ std::uint32_t solve_from(IkProblem& problem, bool is_closed) {
     std::uint32_t others = problem.options->restarts;
     if (is_done || others == 0) return descents.finish();
     if (!is_closed && (descents.descend_from_closed_form() || --others == 0)) return descents.finish();
-    if (problem.is_stretched_out() || descents.descend_from_swivels(others) || others == 0) return descents.finish();
+    if (descents.descend_from_swivels(others) || others == 0) return descents.finish();
     (void)descents.descend_from_middle();
     return descents.finish();
 }

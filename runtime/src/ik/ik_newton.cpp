@@ -14,9 +14,9 @@
 // ellipse moves along it. The Hessian holds the bend of the tip's path, so that it converges as quickly towards a
 // target out of reach, which it only comes near.
 //
-// What the target does not determine stays nearest to the pose that came in: springs pull every joint back to it, the
-// harder the less it is free, stiffly at first and in the end hardly at all. The result then follows the pose
-// and the target continuously, but where two poses are equally near.
+// A target does not determine everything. Springs keep the rest close to the incoming pose: they pull each joint back
+// to where it was, harder if it has less freedom, and are loosened from step to step. The result is then a continuous
+// function of the pose and the target, except where two poses are equally near.
 namespace bendy {
 namespace {
 
@@ -307,7 +307,7 @@ private:
 std::optional<std::uint32_t> solve_newton(IkProblem& problem) {
     Newton newton(problem);
     if (!newton.begin()) return std::nullopt;
-    return newton.run(problem.iterations != 0 ? problem.iterations : kMostSteps);
+    return newton.run(problem.iterations != 0 ? std::min(problem.iterations, kMostSteps) : kMostSteps);
 }
 
 }  // namespace bendy

@@ -63,7 +63,7 @@ private:
             way.legal = angle;
             return true;
         }
-        // The excess changes by no more than the angle does.
+        // Near the edge the excess changes about as fast as the angle at most.
         const bool is_least = way.last.excess < now.excess && way.last.excess <= way.before.excess;
         const bool is_found = is_least && way.last.excess < std::abs(way.step) && find_between(way, now);
         way.before = way.last;

@@ -67,7 +67,7 @@ public:
         });
     }
 
-    /// Of the bone from the joint to the end of the part; turns about it do not count.
+    /// How far the bone from the joint to the end of the part swings; twist does not count.
     [[nodiscard]] double swing(std::uint32_t joint, const LimbPart& part) const {
         const glm::dvec3 end = rest_.position(part.end->joint);
         const glm::dvec3 whole = end - rest_.position(part.top->joint);

@@ -42,8 +42,8 @@ inline constexpr double kMostTurnedFree =
 inline constexpr double kMostMoved = 0.0001;  ///< of the length of the legs
 inline constexpr double kMostWeight = 0.002;  ///< of a morph target, of a contact, of a scale
 
-/// What a warning names. Bones of limbs have the source's directions; trunks, necks, collarbones and feet have those of
-/// their own rig (docs/decisions/0070). docs/retarget.md says the same.
+/// A warning names what is farther off than this. Limbs take the source's directions, while trunks, necks, collarbones
+/// and feet keep those of their own rig (docs/decisions/0070). A test compares docs/retarget.md with these numbers.
 inline constexpr double kFarOfLimb = 20.0, kFarOfOthers = 50.0;  ///< degrees
 inline constexpr double kFarMiss = 0.05;                         ///< of the length of the legs
 
