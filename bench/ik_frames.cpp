@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-// bendy_bench_ik_frames [--targets N] [--seconds N] [--judge N] [--chains] [--softness N] [--restarts N] FILE.bendy...:
+// bendy_bench_ik_frames [--targets N] [--seconds N] [--judge N] [--chains] [--softness N] [--restarts N]
+// [--state] FILE.bendy...:
 // chains that reach while a clip plays, 60 frames a second; --softness in thousandths. For each kind of chain, over all
 // files, and with --chains for each chain:
 //     jumps    share of the frames in which a joint of the chain turns by over 5 degrees more than the clip turns one,
@@ -40,6 +41,7 @@ struct Settings {
     float seconds = 2.0f;
     std::size_t judge = 0;
     bool is_detailed = false;
+    bool has_state = false;
     ReachOptions options;
 };
 
@@ -236,6 +238,7 @@ Tally measure(const Model& model, const Chain& chain, Motion motion, const Setti
         };
         const glm::vec3 place = anywhere(), far = start + 1.5f * (anywhere() - start);
         std::vector<glm::dmat3> before, clip_before;
+        ReachState state(model), tried(model);
         glm::vec3 way_before(0.0f);
         const float seconds = clip == nullptr ? settings.seconds : std::min(settings.seconds, clip->end - clip->start);
         const auto frames = std::max<std::size_t>(2, static_cast<std::size_t>(seconds * kRate));
@@ -258,11 +261,16 @@ Tally measure(const Model& model, const Chain& chain, Motion motion, const Setti
             for (int repeat = 0; repeat < 2; ++repeat) {
                 begin();
                 (void)pose.model_space();
+                tried = state;
+                ReachOptions options = settings.options;
+                options.state = settings.has_state ? &tried : nullptr;
+                options.seconds = 1.0f / kRate;
                 const auto from = std::chrono::steady_clock::now();
-                result = *reach(pose, &chain, target, settings.options);
+                result = *reach(pose, &chain, target, options);
                 least = std::min(
                     least, std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - from).count());
             }
+            state = tried;
             ++tally.frames;
             tally.times.push_back(least);
             const bool is_there = result.status == ReachStatus::reached || result.status == ReachStatus::aimed;
@@ -312,6 +320,8 @@ int run(int argc, char** argv) {
             settings.options.restarts = static_cast<std::uint32_t>(number());
         } else if (word == "--softness") {
             settings.options.softness = static_cast<float>(number()) * 1e-3f;
+        } else if (word == "--state") {
+            settings.has_state = true;
         } else if (word == "--chains") {
             settings.is_detailed = true;
         } else {

@@ -495,7 +495,9 @@ class Maker:
             listed = "\n".join(textwrap.fill(f"{name}: {doc}.", 120, initial_indent=indent, subsequent_indent=indent + "    ")
                                for name, _, _, doc in options)
             piece = re.sub(r"^ *\*\*options$", lambda _: listed, piece, count=1, flags=re.MULTILINE)
-            pieces[place] = piece.replace("**options", ", ".join(name for name, _, _, _ in options))
+            handles = {f"Optional[{pascal(one)}]" for one in self.api.handles}
+            passed = [f'getattr({name}, "_handle", {name})' if kind in handles else name for name, kind, _, _ in options]
+            pieces[place] = piece.replace("**options", ", ".join(passed))
         return "".join(pieces)
 
     # Properties and methods that follow, in the package's own classes.
@@ -554,7 +556,9 @@ class Maker:
     def passed(self, one):
         if one.name in PARTS:
             return f'self._character.find("{one.name}", {one.name})'
-        return f"{one.name}._handle" if one.type.name in self.api.handles else one.name
+        if one.type.name not in self.api.handles:
+            return one.name
+        return f'getattr({one.name}, "_handle", {one.name})' if one.may_be_null else f"{one.name}._handle"
 
     def in_package(self, doc):
         """A comment with the names of the package's classes."""

@@ -69,8 +69,8 @@ def documentation(function):
     return re.sub(";$", ".", " ".join(clauses))
 
 
-def takes(one):
-    return (one.type.name == "bendy_pose" or bool(one.length) or
+def takes(one, api):
+    return (one.type.name in api.handles or bool(one.length) or
             not one.type.is_pointer and not one.count and (one.type.name in ("float", "double") or bool(one.enum) or one.name in PARTS))
 
 
@@ -91,6 +91,6 @@ def follow(api, handle, excused):
             made[name] = Property(name, function, None)
         elif name.startswith("set_") and name[4:] in made:
             made[name[4:]].setter = function
-        elif all(map(takes, given)) and not result.is_pointer:
+        elif all(takes(one, api) for one in given) and not result.is_pointer:
             made[name] = Method(name, function, given, out)
     return made

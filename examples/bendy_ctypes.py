@@ -66,10 +66,12 @@ class Submesh(Sized):
 class ReachOptions(Sized):
     _fields_ = [("size", c_uint32), ("solver", c_uint32), ("iterations", c_uint32), ("restarts", c_uint32), ("tolerance", c_float),
                 ("influence", c_float), ("softness", c_float), ("gain", c_float), ("step_limit", c_float),
-                ("ignore_constraints", c_uint32), ("has_pole", c_uint32), ("pole", c_float * 3), ("carry_target", c_uint32)]
+                ("ignore_constraints", c_uint32), ("has_pole", c_uint32), ("pole", c_float * 3), ("carry_target", c_uint32),
+                ("seconds", c_float), ("speed_limit", c_float), ("state", c_void_p)]
 
     def __init__(self, **fields):
-        super().__init__(**{"restarts": 4, "influence": 1.0, "softness": 0.005, "gain": 1.0, "step_limit": 0.2, "carry_target": 1, **fields})
+        super().__init__(**{"restarts": 4, "influence": 1.0, "softness": 0.005, "gain": 1.0, "step_limit": 0.2, "carry_target": 1,
+                            "speed_limit": 4.0, **fields})
 
 
 class ReachResult(Sized):

@@ -65,7 +65,7 @@ TEST_F(CArguments, NullIsAnErrorEverywhere) {
          {bendy_set_rest(no_pose, e), bendy_sample(no_pose, 0, 0, e), bendy_blend(no_pose, pose_.get(), 0, nullptr, e),
           bendy_make_additive(no_pose, pose_.get(), e), bendy_add(no_pose, pose_.get(), 0, nullptr, e),
           bendy_constrain(no_pose, e), bendy_get_local(no_pose, 0, 0, nullptr, e),
-          bendy_set_local(no_pose, 0, 0, nullptr, e), bendy_reach_all(no_pose, e),
+          bendy_set_local(no_pose, 0, 0, nullptr, e), bendy_reach_all(no_pose, nullptr, 0, e),
           bendy_get_weights(no_pose, 0, 0, nullptr, e), bendy_set_weights(no_pose, 0, 0, nullptr, e),
           bendy_reach(no_pose, 0, nullptr, nullptr, nullptr, nullptr, e),
           bendy_bone_matrices(no_pose, 0, nullptr, 0, e), bendy_joint_matrices(no_pose, 0, 0, nullptr, nullptr, e),

@@ -16,6 +16,7 @@ struct FreeHandle {
     void operator()(bendy_model* model) const { bendy_close(model); }
     void operator()(bendy_pose* pose) const { bendy_pose_free(pose); }
     void operator()(bendy_body_reach* body) const { bendy_body_reach_free(body); }
+    void operator()(bendy_reach_state* state) const { bendy_reach_state_free(state); }
     void operator()(bendy_lod* lod) const { bendy_lod_free(lod); }
     void operator()(bendy_playback* playback) const { bendy_playback_free(playback); }
     void operator()(bendy_fade* fade) const { bendy_fade_free(fade); }
@@ -30,6 +31,7 @@ struct FreeHandle {
 using ModelHandle = std::unique_ptr<bendy_model, FreeHandle>;
 using PoseHandle = std::unique_ptr<bendy_pose, FreeHandle>;
 using BodyReachHandle = std::unique_ptr<bendy_body_reach, FreeHandle>;
+using ReachStateHandle = std::unique_ptr<bendy_reach_state, FreeHandle>;
 using LodHandle = std::unique_ptr<bendy_lod, FreeHandle>;
 using PlaybackHandle = std::unique_ptr<bendy_playback, FreeHandle>;
 using FadeHandle = std::unique_ptr<bendy_fade, FreeHandle>;

@@ -123,9 +123,52 @@ TEST(CPose, DefaultReachIsTheSameAsInCpp) {
     EXPECT_EQ(result.distance, cpp_result.distance);
     EXPECT_EQ(result.angle, cpp_result.angle);
     EXPECT_EQ(skin_all(pose.get(), model.get()), skin_all(cpp, *expected));
-    bendy_reach_all(pose.get(), nullptr);
+    bendy_reach_all(pose.get(), nullptr, 0.0f, nullptr);
     reach_all(cpp);
     EXPECT_EQ(skin_all(pose.get(), model.get()), skin_all(cpp, *expected));
+}
+
+TEST(CPose, ReachesOverTimeAsCppDoes) {
+    const auto expected = Model::open(seed("rope_rigged.bendy"));
+    const ModelHandle model(bendy_open(seed("rope_rigged.bendy").c_str(), nullptr, nullptr));
+    const PoseHandle pose = new_pose(model);
+    const ReachStateHandle state(bendy_reach_state_new(model.get(), nullptr));
+    ASSERT_NE(state, nullptr);
+    ReachState cpp_state(*expected);
+    for (int frame = 0; frame < 8; ++frame) {
+        if (frame == 3) {
+            ASSERT_EQ(bendy_reach_state_forget(state.get(), 0, nullptr), BENDY_OK);
+            ASSERT_TRUE(cpp_state.forget(&expected->chains()[0]));
+        } else if (frame == 6) {
+            ASSERT_EQ(bendy_reach_state_reset(state.get(), nullptr), BENDY_OK);
+            cpp_state.reset();
+        }
+        const std::array<float, 3> target{frame % 2 == 0 ? 0.3f : -0.3f, 0.1f, 0.1f};
+        ASSERT_EQ(bendy_set_rest(pose.get(), nullptr), BENDY_OK);
+        bendy_reach_options options = BENDY_REACH_OPTIONS_INIT;
+        options.state = state.get();
+        options.seconds = 0.01f;
+        options.speed_limit = 1.0f;
+        auto result = sized<bendy_reach_result>();
+        ASSERT_EQ(bendy_reach(pose.get(), 0, target.data(), nullptr, &options, &result, nullptr), BENDY_OK);
+        Pose cpp(*expected);
+        ReachOptions cpp_options;
+        cpp_options.state = &cpp_state;
+        cpp_options.seconds = 0.01f;
+        cpp_options.speed_limit = 1.0f;
+        const ReachResult cpp_result =
+            *reach(cpp, &expected->chains()[0], glm::vec3(target[0], target[1], target[2]), cpp_options);
+        EXPECT_EQ(result.distance, cpp_result.distance);
+        EXPECT_EQ(skin_all(pose.get(), model.get()), skin_all(cpp, *expected));
+    }
+    const ModelHandle other(bendy_open(seed("rope_rigged.bendy").c_str(), nullptr, nullptr));
+    const PoseHandle other_pose = new_pose(other);
+    bendy_reach_options options = BENDY_REACH_OPTIONS_INIT;
+    options.state = state.get();
+    const std::array<float, 3> target{0.3f, 0.1f, 0.1f};
+    bendy_error error{};
+    EXPECT_EQ(bendy_reach(other_pose.get(), 0, target.data(), nullptr, &options, nullptr, &error), BENDY_BAD_ARGUMENT);
+    EXPECT_STREQ(error.message, "state is of another model than pose");
 }
 
 /// Targets that a rope follows one after another: more than are solved at once.

@@ -5,6 +5,7 @@
 """
 
 import json
+import math
 import os
 import struct
 import sys
@@ -132,6 +133,25 @@ class PoseCommand(Case):
         documents = [json.loads((self.folder / f"r{frame}.json").read_text()) for frame in range(4)]
         self.assertEqual([document["time"] for document in documents], [0, 0.1, 0.2, 0.3])
         self.assertEqual(len({document["reaches"][0]["distance"] for document in documents}), 4)
+
+    def test_frames_follow_one_another_and_are_the_same_in_every_range(self):
+        model = self.convert()
+
+        def frames(first, last):
+            self.bendy("pose", model, "--clip", "Idle", "--frames", f"{first}..{last}@60", "--reach", "IK_LeftArm=-0.2,1.5,0.3", "-o", "s#.json")
+            return [json.loads((self.folder / f"s{frame}.json").read_text()) for frame in range(first, last + 1)]
+        whole = frames(0, 60)
+        self.assertEqual(frames(40, 44), whole[40:45])
+
+        def turned(a, b):
+            """The largest angle between the joints of two poses, degrees."""
+            cosines = []
+            for one, other in zip(a["joints"], b["joints"]):
+                axes = [[[float(n) for n in joint["world"][4 * k:4 * k + 3]] for k in range(3)] for joint in (one, other)]
+                trace = sum(sum(p * q for p, q in zip(u, v)) / math.hypot(*u) / math.hypot(*v) for u, v in zip(*axes))
+                cosines.append((trace - 1) / 2)
+            return math.degrees(math.acos(min(1.0, min(cosines))))
+        self.assertLess(max(turned(one, other) for one, other in zip(whole, whole[1:])), 6.0)
 
     def test_a_solver_that_makes_one_step_says_so(self):
         for solver, is_said in (("pull", True), ("ccd", False)):

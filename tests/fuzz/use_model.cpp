@@ -92,6 +92,7 @@ void read_all(const Model& model) {
 void reach_all(const Model& model, Pose& pose) {
     const ReachTarget target({0.3f, 0.9f, 0.2f}, glm::quat(0.6f, 0.0f, 0.8f, 0.0f));
     std::size_t chains = 0;
+    ReachState state(model);
     for (const Chain& chain : model.chains()) {
         if (++chains > 8) break;  // one is like another
         for (unsigned solver = 0; solver < kSolvers; ++solver) {
@@ -101,6 +102,7 @@ void reach_all(const Model& model, Pose& pose) {
             options.restarts = 1;
             options.obey_constraints = solver % 2 == 0;
             (void)reach(pose, &chain, target, options);
+            options.state = &state;
             (void)reach(pose, &chain, glm::vec3(0.1f, 1.2f, -0.3f), options);
         }
     }

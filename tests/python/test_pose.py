@@ -1,6 +1,7 @@
 """Poses: the numbers of the program and of the C API, outputs in the caller's memory, and wrong arguments."""
 
 import importlib.util
+import json
 import math
 import os
 import re
@@ -39,6 +40,32 @@ def test_the_program_reaches_the_same(model, mannequin, posed):
     assert model.sample("Walk", 0.3).reach("IK_LeftArm", [0.3, 1.2, 0.4])
     free = model.pose().reach(model.chains["IK_LeftArm"], numpy.array([0.1, 1.25, -0.2]), obey_constraints=False)
     assert free.reached
+
+
+def test_reaching_over_time_is_as_the_programs(model, mannequin, tmp_path, program):
+    arguments = ["pose", str(mannequin), "--clip", "Idle", "--frames", "0..50@60", "--reach", "IK_LeftArm=-0.2,1.5,0.3", "-o", str(tmp_path / "#.json")]
+    program(*arguments)
+    state, chain = bendy.ReachState(model), model.chains["IK_LeftArm"]
+    start = model.clips["Idle"].start
+    for frame in range(51):
+        pose = model.sample("Idle", frame / 60)
+        if frame % 2:
+            result = pose.reach(chain, (-0.2, 1.5, 0.3), state=state, seconds=1 / 60 if frame else 0.0)
+        else:
+            result, = pose.reach_chains([(chain, (-0.2, 1.5, 0.3), None, {"state": state, "seconds": 1 / 60 if frame else 0.0})])
+        expected = json.loads((tmp_path / f"{frame}.json").read_text())["reaches"][0]["distance"]
+        assert result.distance == pytest.approx(expected, abs=2e-5)
+    assert start == 0
+    alone = model.sample("Idle", 0.0).reach(chain, (-0.2, 1.5, 0.3)).distance
+    for forget in (state.reset, lambda: state.forget(chain)):
+        forget()
+        assert model.sample("Idle", 0.0).reach(chain, (-0.2, 1.5, 0.3), state=state).distance == alone
+    pose = model.pose()
+    assert pose.reach_all(state, 0.1) is pose
+    with pytest.raises(ValueError, match="state is of another model than pose"):
+        bendy.open(mannequin).pose().reach("IK_LeftArm", (0, 1, 0), state=state)
+    with pytest.raises(TypeError):
+        model.pose().reach("IK_LeftArm", (0, 1, 0), state=3)
 
 
 def test_what_a_chain_follows_is_carried(model):

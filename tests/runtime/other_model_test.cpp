@@ -119,6 +119,11 @@ const std::vector<Call> kCalls{
      [](Parts& mine, Parts& other) { return error_of(add(mine.pose, other.pose, 0.5f)); }},
     {"reach(Pose& pose, const Chain* chain, const ReachTarget& target, const ReachOptions& options)",
      [](Parts& mine, Parts& other) { return error_of(reach(mine.pose, other.chain, glm::vec3(1.0f))); }},
+    {"ReachState::forget(const Chain* chain)",
+     [](Parts& mine, Parts& other) {
+         ReachState state(*mine.model);
+         return error_of(state.forget(other.chain));
+     }},
     {"reach(Pose& pose, std::span<const ReachRequest> requests, std::span<ReachResult> results)",
      [](Parts& mine, Parts& other) {
          const ReachRequest request{other.chain, glm::vec3(1.0f), {}};

@@ -74,6 +74,7 @@ inline std::uint64_t read_all(const Model& model) {
 
 /// Every chain with every solver: whatever the numbers are, this ends, and what comes out is a status.
 inline void reach_with_all(const Model& model, Pose& pose) {
+    ReachState state(model);
     for (const Chain& chain : model.chains()) {
         for (unsigned solver = 0; solver < kSolvers; ++solver) {
             ReachOptions options;
@@ -81,6 +82,8 @@ inline void reach_with_all(const Model& model, Pose& pose) {
             options.iterations = 3;
             options.restarts = 1;
             const ReachTarget target({0.3f, 0.9f, 0.2f}, glm::quat(0.6f, 0.0f, 0.8f, 0.0f));
+            (void)reach(pose, &chain, target, options);
+            options.state = &state;
             (void)reach(pose, &chain, target, options);
             (void)reach(pose, &chain, glm::vec3(0.1f, 1.2f, -0.3f), options);
         }

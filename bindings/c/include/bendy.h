@@ -848,6 +848,20 @@ BENDY_API bendy_status bendy_transform_matrix(const bendy_transform* transform, 
 /* Moves every joint into the range that its constraints allow. */
 BENDY_API bendy_status bendy_constrain(bendy_pose* pose, bendy_error* error);
 
+/* What the chains of one character did last. With it, chains that reach in frame after frame do not jump: where two
+ * poses are about equally good, a chain keeps the one that it has; where another one has been better for a tenth of a
+ * second, it goes there at a limited speed. Limits come first, then that speed, then the target. Each chain reaches
+ * once a frame. For one thread at a time. */
+typedef struct bendy_reach_state bendy_reach_state;
+
+/* Makes a state that knows of no chain: each begins with the pose that it has without a state. */
+BENDY_API bendy_reach_state* bendy_reach_state_new(const bendy_model* model, bendy_error* error);
+BENDY_API void bendy_reach_state_free(bendy_reach_state* state); /* does nothing for NULL */
+/* Forgets what the chains did, as after a cut. */
+BENDY_API bendy_status bendy_reach_state_reset(bendy_reach_state* state, bendy_error* error);
+/* Forgets what one chain did, which begins to reach after a pause. */
+BENDY_API bendy_status bendy_reach_state_forget(bendy_reach_state* state, uint32_t chain, bendy_error* error);
+
 typedef struct bendy_reach_options {
     uint32_t size;
     uint32_t solver;     /* a bendy_solver */
@@ -864,11 +878,18 @@ typedef struct bendy_reach_options {
     uint32_t carry_target; /* 1: afterwards, the joint that the chain follows is moved to the tip with its descendants,
                               unless it is in, above or below the chain: a foot that is not a child of its leg stays at
                               the leg's end */
+    float seconds;     /* with a state: since the last call, 0 to 1; not of pull, which takes several frames itself */
+    float speed_limit; /* with a state: radians per second, how fast a chain goes from one pose to another, beyond what
+                          the pose that comes in and the target turn it */
+    bendy_reach_state* state; /* what the chains of this character did last; NULL: each call is by itself */
 } bendy_reach_options;
 
 /* The defaults, which differ from zeros: a struct of zeros sets `influence` and `carry_target` to 0, for example. */
-#define BENDY_REACH_OPTIONS_INIT \
-    { sizeof(bendy_reach_options), BENDY_SOLVER_ANY, 0, 4, 0.0f, 1.0f, 0.005f, 1.0f, 0.2f, 0, 0, {0.0f, 0.0f, 0.0f}, 1 }
+#define BENDY_REACH_OPTIONS_INIT                                                                                       \
+    {                                                                                                                  \
+        sizeof(bendy_reach_options), BENDY_SOLVER_ANY, 0, 4, 0.0f, 1.0f, 0.005f, 1.0f, 0.2f, 0, 0, {0.0f, 0.0f, 0.0f}, \
+            1, 0.0f, 4.0f, NULL                                                                                        \
+    }
 
 typedef enum bendy_reach_status {
     BENDY_REACHED = 0,      /* the tip is at the target, within the tolerance */
@@ -914,8 +935,9 @@ BENDY_API bendy_status bendy_reach_chains(bendy_pose* pose, const bendy_reach_re
                                           bendy_reach_result* results /* or NULL, or one for each request */,
                                           bendy_error* error);
 /* Solves every chain that follows a target joint, in order of priority. The joints that are followed stay where they
- * are. */
-BENDY_API bendy_status bendy_reach_all(bendy_pose* pose, bendy_error* error);
+ * are. `state` and `seconds` are those of bendy_reach_options. */
+BENDY_API bendy_status bendy_reach_all(bendy_pose* pose, bendy_reach_state* state /* or NULL */,
+                                       float seconds /* elsewhere: 0 if not given */, bendy_error* error);
 
 /* A point of a joint that is to reach for a target. */
 typedef struct bendy_effector {

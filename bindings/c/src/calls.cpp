@@ -801,6 +801,34 @@ bendy_status bendy_constrain(bendy_pose* pose, bendy_error* error) {
     });
 }
 
+bendy_reach_state* bendy_reach_state_new(const bendy_model* model, bendy_error* error) {
+    bendy_reach_state* made = nullptr;
+    guarded(error, [&]() -> bendy_status {
+        if (const bendy_status status = check_pointer(model, "model", error)) return status;
+        return bendy::capi::reach_state_new(model, made, error);
+    });
+    return made;
+}
+
+void bendy_reach_state_free(bendy_reach_state* state) {
+    delete state;
+}
+
+bendy_status bendy_reach_state_reset(bendy_reach_state* state, bendy_error* error) {
+    return guarded(error, [&]() -> bendy_status {
+        if (const bendy_status status = check_pointer(state, "state", error)) return status;
+        return bendy::capi::reach_state_reset(state, error);
+    });
+}
+
+bendy_status bendy_reach_state_forget(bendy_reach_state* state, uint32_t chain, bendy_error* error) {
+    return guarded(error, [&]() -> bendy_status {
+        if (const bendy_status status = check_pointer(state, "state", error)) return status;
+        if (const bendy_status status = check_index(chain, parts(*state).chain(), "chain", error)) return status;
+        return bendy::capi::reach_state_forget(state, chain, error);
+    });
+}
+
 bendy_status bendy_reach(bendy_pose* pose, uint32_t chain, const float* position, const float* rotation,
                          const bendy_reach_options* options, bendy_reach_result* result, bendy_error* error) {
     return guarded(error, [&]() -> bendy_status {
@@ -831,10 +859,12 @@ bendy_status bendy_reach_chains(bendy_pose* pose, const bendy_reach_request* req
     });
 }
 
-bendy_status bendy_reach_all(bendy_pose* pose, bendy_error* error) {
+bendy_status bendy_reach_all(bendy_pose* pose, bendy_reach_state* state, float seconds, bendy_error* error) {
     return guarded(error, [&]() -> bendy_status {
         if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
-        return bendy::capi::reach_all(pose, error);
+        if (const bendy_status status = check_same_model(state, *pose, "state", "pose", error)) return status;
+        if (const bendy_status status = check_finite(seconds, "seconds", error)) return status;
+        return bendy::capi::reach_all(pose, state, seconds, error);
     });
 }
 

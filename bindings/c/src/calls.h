@@ -102,11 +102,14 @@ bendy_status get_weights(const bendy_pose* pose, uint32_t first, uint32_t count,
 bendy_status set_weights(bendy_pose* pose, uint32_t first, uint32_t count, const float* weights, bendy_error* error);
 bendy_status transform_matrix(const bendy_transform& transform, const float* shear, float* matrix, bendy_error* error);
 bendy_status constrain(bendy_pose* pose, bendy_error* error);
+bendy_status reach_state_new(const bendy_model* model, bendy_reach_state*& made, bendy_error* error);
+bendy_status reach_state_reset(bendy_reach_state* state, bendy_error* error);
+bendy_status reach_state_forget(bendy_reach_state* state, uint32_t chain, bendy_error* error);
 bendy_status reach(bendy_pose* pose, uint32_t chain, const float* position, const float* rotation,
                    const bendy_reach_options& options, bendy_reach_result& result, bendy_error* error);
 bendy_status reach_chains(bendy_pose* pose, const bendy_reach_request* requests, size_t count,
                           bendy_reach_result* results, bendy_error* error);
-bendy_status reach_all(bendy_pose* pose, bendy_error* error);
+bendy_status reach_all(bendy_pose* pose, bendy_reach_state* state, float seconds, bendy_error* error);
 bendy_status body_reach_new(const bendy_model* model, const bendy_effector* effectors, size_t count,
                             const bendy_body_reach_options& options, bendy_body_reach*& made, bendy_error* error);
 bendy_status reach_body(bendy_pose* pose, bendy_body_reach* body, const bendy_effector_target* targets, size_t count,

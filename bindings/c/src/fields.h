@@ -323,6 +323,8 @@ struct Fields<bendy_reach_options> {
         if (const bendy_status status = check_finite(from.step_limit, "step_limit", error)) return status;
         if (const bendy_status status = from.has_pole == 0 ? BENDY_OK : check_finite(from.pole, "pole", error))
             return status;
+        if (const bendy_status status = check_finite(from.seconds, "seconds", error)) return status;
+        if (const bendy_status status = check_finite(from.speed_limit, "speed_limit", error)) return status;
         return BENDY_OK;
     }
     template <class To>
@@ -338,6 +340,8 @@ struct Fields<bendy_reach_options> {
         to.obey_constraints = from.ignore_constraints == 0;
         if (from.has_pole != 0) assign(from.pole, to.pole.emplace());
         assign(from.carry_target, to.carry_target);
+        assign(from.seconds, to.seconds);
+        assign(from.speed_limit, to.speed_limit);
     }
 };
 

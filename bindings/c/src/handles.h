@@ -13,6 +13,7 @@
 #include <bendy/runtime/palette_matrix.h>
 #include <bendy/runtime/playback.h>
 #include <bendy/runtime/pose.h>
+#include <bendy/runtime/reach_state.h>
 #include <bendy/runtime/retarget.h>
 #include <bendy/runtime/root_motion.h>
 #include <bendy/runtime/transform.h>
@@ -86,6 +87,14 @@ struct bendy_body_reach {
     std::shared_ptr<const bendy::capi::Character> character;
     bendy::BodyReach body;
     std::size_t effectors;  ///< their number
+};
+
+struct bendy_reach_state {
+    explicit bendy_reach_state(std::shared_ptr<const bendy::capi::Character> of)
+        : character(std::move(of)), state(character->model) {}
+
+    std::shared_ptr<const bendy::capi::Character> character;
+    bendy::ReachState state;
 };
 
 struct bendy_lod {

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -22,6 +23,15 @@ constexpr const char* kNotFinite = "the pose, or a chain, holds numbers that are
 void take_target(const float* position, const float* rotation, ReachTarget& to) {
     to.position = {position[0], position[1], position[2]};
     if (rotation != nullptr) to.rotation = glm::quat(rotation[3], rotation[0], rotation[1], rotation[2]);
+}
+
+/// Options of the caller, after their fields are checked.
+bendy_status take_options(const bendy_pose& pose, const bendy_reach_options& from, ReachOptions& to,
+                          bendy_error* error) {
+    if (const bendy_status status = check_same_model(from.state, pose, "state", "pose", error)) return status;
+    from_c(from, to);
+    if (from.state != nullptr) to.state = &from.state->state;
+    return BENDY_OK;
 }
 
 /// A request of the caller, after its arguments are checked.
@@ -36,8 +46,7 @@ bendy_status take_request(const bendy_pose& pose, const bendy_reach_request& fro
     if (const bendy_status status = check_fields(options, error)) return status;
     to = {&pose.pose.model().chains()[taken.chain], {}, {}};
     take_target(taken.position, taken.has_rotation != 0 ? taken.rotation : nullptr, to.target);
-    from_c(options, to.options);
-    return BENDY_OK;
+    return take_options(pose, options, to.options, error);
 }
 
 }  // namespace
@@ -55,7 +64,7 @@ bendy_status bendy::capi::reach(bendy_pose* pose, uint32_t chain, const float* p
     bendy::ReachTarget target;
     take_target(position, rotation, target);
     bendy::ReachOptions taken;
-    from_c(options, taken);
+    if (const bendy_status status = take_options(*pose, options, taken, error)) return status;
     const auto reached = bendy::reach(pose->pose, &pose->pose.model().chains()[chain], target, taken);
     if (!reached) return fail(error, BENDY_BAD_ARGUMENT, kNotFinite);
     to_c(*reached, result);
@@ -89,7 +98,22 @@ bendy_status bendy::capi::reach_chains(bendy_pose* pose, const bendy_reach_reque
     return BENDY_OK;
 }
 
-bendy_status bendy::capi::reach_all(bendy_pose* pose, bendy_error* /*error*/) {
-    bendy::reach_all(pose->pose);
+bendy_status bendy::capi::reach_state_new(const bendy_model* model, bendy_reach_state*& made, bendy_error* /*error*/) {
+    made = std::make_unique<bendy_reach_state>(model->character).release();
+    return BENDY_OK;
+}
+
+bendy_status bendy::capi::reach_state_reset(bendy_reach_state* state, bendy_error* /*error*/) {
+    state->state.reset();
+    return BENDY_OK;
+}
+
+bendy_status bendy::capi::reach_state_forget(bendy_reach_state* state, uint32_t chain, bendy_error* /*error*/) {
+    (void)state->state.forget(&state->character->model.chains()[chain]);
+    return BENDY_OK;
+}
+
+bendy_status bendy::capi::reach_all(bendy_pose* pose, bendy_reach_state* state, float seconds, bendy_error* /*error*/) {
+    bendy::reach_all(pose->pose, state == nullptr ? nullptr : &state->state, seconds);
     return BENDY_OK;
 }

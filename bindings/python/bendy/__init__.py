@@ -32,13 +32,13 @@ from ._material import Material, Texture, TextureUse
 from ._mesh import Lod, Mesh, MorphTarget, Submesh
 from ._model import Chain, Clip, Constraint, Curve, FrameSequence, Joint, Marker, Model, Track
 from ._play import Binding, Crossfade, Crowd, Fade, PlayedInterval, Playback, Playing, RootMotion, RootPath, ease
-from ._pose import Pose, ReachRequest, ReachResult
+from ._pose import Pose, ReachRequest, ReachResult, ReachState
 from ._retarget import Retarget, Retargeted, RetargetState
 
 __all__ = [
     "Binding", "BodyReach", "BodyReached", "Chain", "Chunk", "Clip", "Constraint", "Conversion", "ConversionError", "Crossfade", "Crowd", "Curve", "Edit",
     "EditError", "Effector", "EffectorTarget", "Error", "Export", "Fade", "Fault", "Faults", "File", "FrameSequence", "InvalidError", "Items", "Joint", "Lod", "MalformedError", "Marker",
-    "Material", "Mesh", "Model", "MorphTarget", "Playback", "PlayedInterval", "Playing", "Pose", "ReachRequest", "ReachResult",
+    "Material", "Mesh", "Model", "MorphTarget", "Playback", "PlayedInterval", "Playing", "Pose", "ReachRequest", "ReachResult", "ReachState",
     "RenderError", "Retarget", "RetargetState", "Retargeted", "RootMotion", "RootPath", "Submesh", "Texture", "TextureUse", "Track", "UnsupportedError", "assemble", "contact_sheet", "convert", "diff",
     "dump", "ease", "edit", "encode_png", "export", "inspect", "open", "render", "save_png", "validate",
 ]

@@ -57,6 +57,19 @@ class ReachRequest(NamedTuple):
     options: Optional[dict] = None
 
 
+class ReachState:
+    """What the chains of one character did last. With it (`state` of Pose.reach), chains that reach in frame after frame do not jump: where
+    two poses are about equally good, a chain keeps the one that it has; where another one has been better for a tenth of a second, it
+    goes there at a limited speed. Each chain reaches once a frame. For one thread at a time."""
+
+    follows: "bendy_reach_state"
+
+    def __init__(self, model: Model) -> None:
+        """Knows of no chain. Raises ValueError if the model is closed."""
+        self._character: Character = model._get()
+        self._handle: c.ReachState = c.reach_state_new(self._character.handle)
+
+
 class Pose:
     """A model in one position: local transforms, morph target weights, and the matrices and vertices computed from them. For one
     thread at a time: a call while another thread uses the pose raises RuntimeError. Methods that change the pose return it,
@@ -97,7 +110,9 @@ class Pose:
         listed, results = [], []
         for request in requests:
             chain, target, rotation, options = ReachRequest(*request)
-            number, taken = self._character.find("chain", chain), c.ReachOptions(**(options or {}))
+            given = dict(options or {})
+            given["state"] = getattr(given.get("state"), "_handle", given.get("state"))
+            number, taken = self._character.find("chain", chain), c.ReachOptions(**given)
             position, wanted = _target(target, rotation)
             listed.append(c.ReachRequest(chain=number, position=position, rotation=wanted, options=taken))
             results.append(ReachResult(self._character, number, taken))

@@ -1,6 +1,6 @@
 // A character that plays clips and reaches for targets: the runtime, and the three.js objects that it moves.
 import * as THREE from 'three';
-import { type Chain, type Clip, type Constraint, LevelOfDetail, type Model, type Pose } from '../src/index.js';
+import { type Chain, type Clip, type Constraint, LevelOfDetail, type Model, type Pose, ReachState } from '../src/index.js';
 import { BendyAnimator, type BendyCharacter, BendyLoader, setLevelOfDetail } from '../src/three/index.js';
 import { BorrowedMotion, Motion } from './motion.js';
 import { drawRange } from './ranges.js';
@@ -57,6 +57,7 @@ export class Character {
   readonly limbs: readonly Chain[];
   readonly #model: Model;
   readonly #pose: Pose;
+  readonly #reached: ReachState;
   readonly #animator: BendyAnimator;
   readonly #detail: LevelOfDetail;
   readonly #own: Motion;
@@ -73,6 +74,7 @@ export class Character {
     this.lookChain = this.chains.find(({ name, solver }) => solver === 'aim' && /look|head/i.test(name));
     this.limbs = this.chains.filter((chain) => chain !== this.lookChain);
     this.#detail = new LevelOfDetail(this.#model);
+    this.#reached = new ReachState(this.#model);
     this.#own = new Motion(this.#model, this.#pose);
     this.#matrices = this.#pose.modelMatrices().slice();
     this.#box = this.#measure();
@@ -217,6 +219,7 @@ export class Character {
     for (const chain of this.chains) {
       const target = chain === this.lookChain ? this.#look(pointer, passed) : this.#targets.get(chain.number);
       if (target) this.#reach(chain, target, passed);
+      else this.#reached.forget(chain);
     }
     this.#animator.apply();
     this.#matrices = this.#pose.modelMatrices().slice();
@@ -237,7 +240,8 @@ export class Character {
     if (target.isLeaving && !this.#leader) target.influence -= passed / letGoSeconds;
     if (target.influence <= 0) return void this.#targets.delete(chain.number);
     const { influence, position } = target;
-    const options = { obeyConstraints: this.obeysConstraints, ...(influence < 0.999 ? { influence } : {}) };
+    const time = { state: this.#reached, seconds: Math.min(passed, 1) };
+    const options = { ...time, obeyConstraints: this.obeysConstraints, ...(influence < 0.999 ? { influence } : {}) };
     const { status, distance, angle } = this.#pose.reach(chain.number, position.toArray(), options);
     if (target.isLeaving) return;
     const words = { reached: 'reached', aimed: 'aimed', out_of_reach: 'too far', not_reached: 'as near as it can' }[status];
@@ -324,7 +328,7 @@ export class Character {
   }
 
   dispose(): void {
-    for (const one of [this.#borrowed, this.#own, this.#detail, this.#animator]) one?.dispose();
+    for (const one of [this.#borrowed, this.#own, this.#reached, this.#detail, this.#animator]) one?.dispose();
     this.object.traverse((object) => {
       const { geometry, material } = object as THREE.Mesh;
       geometry?.dispose();

@@ -34,6 +34,7 @@ export type {
   Vector3,
 } from './parts.js';
 export { CrossFade, ease, Fade, Playback, type Playing, type PlayOptions } from './play.js';
+export { ReachState } from './reach_state.js';
 export { Pose, type ReachOptions, type ReachRequest, type ReachResult, SkinnedVertices, type SkinOptions, type SocketOptions, type TransformParts } from './pose.js';
 export { Retarget, type Retargeted, type RetargetOptions, RetargetState } from './retarget.js';
 export { blendMotions, composeMotions, motionMatrix, type RootAxes, type RootMotion, RootPath } from './root_motion.js';

@@ -24,10 +24,16 @@ import type { Model } from './model.js';
 import { checkNumbers, type PointLike, type RotationLike } from './numbers.js';
 import { checkOptions, optionNames } from './options.js';
 import type { Chain, Joint, Transform } from './parts.js';
+import type { ReachState } from './reach_state.js';
 import type { FloatBuffer } from './runtime.js';
 
+type ChainReachOptions = Omit<BendyReachOptions, 'state'> & {
+  /** What the chains of this character did last; if not given, each call is by itself. */
+  state?: ReachState;
+};
+
 /** Options of `Pose.reach`. The chain gives the defaults. */
-export interface ReachOptions extends BendyReachOptions {
+export interface ReachOptions extends ChainReachOptions {
   /** The desired orientation of the tip: unit quaternion x, y, z, w, model space. */
   rotation?: RotationLike;
 }
@@ -35,8 +41,9 @@ export interface ReachOptions extends BendyReachOptions {
 const reachNames = optionNames<ReachOptions>({ ...reachOptionsNames, rotation: true });
 
 /** A chain that `Pose.reachChains` moves, and its target. */
-export interface ReachRequest extends Omit<BendyReachRequest, 'chain' | 'position'> {
+export interface ReachRequest extends Omit<BendyReachRequest, 'chain' | 'position' | 'options'> {
   chain: Key<Chain>;
+  options?: ChainReachOptions;
   /** x, y, z in metres, model space. */
   position: PointLike;
 }

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { Binding, BodyReach, CrossFade, Crowd, LevelOfDetail, loadRuntime, Model, Retarget, RootPath } from '../dist/index.js';
+import { Binding, BodyReach, CrossFade, Crowd, LevelOfDetail, loadRuntime, Model, Pose, ReachState, Retarget, RootPath } from '../dist/index.js';
 import { bendy, convert, corpusFile, difference, example, extent, folder, plain, read, simd } from './helpers.mjs';
 
 // The kernels round differently: a vertex is a sum of up to eight products of floats with an error of 2^-24 each, and so are
@@ -151,6 +151,35 @@ test('reach goes to the target within the constraints, as the program', async ()
     }
     model.dispose();
   }
+});
+
+test('with a state, a chain that reaches while a clip plays does not jump, as in the program', async () => {
+  const model = await Model.open(read(example('mannequin')), { runtime: plain });
+  const [state, chain, target] = [new ReachState(model), 'IK_LeftArm', [-0.2, 1.5, 0.3]];
+  const tip = model.chains.get(chain).links.at(-1);
+  let before = null;
+  for (let frame = 0; frame <= 60; ++frame) {
+    const pose = model.sample('Idle', frame / 60);
+    const { distance } = frame % 2 === 0
+      ? pose.reach(chain, target, { state, seconds: 1 / 60 })
+      : pose.reachChains([{ chain, position: target, options: { state, seconds: 1 / 60 } }])[0];
+    const now = [...pose.modelMatrices().slice(16 * tip, 16 * tip + 12)];
+    if (before !== null) {
+      const cosine = [0, 1, 2, 4, 5, 6, 8, 9, 10].reduce((sum, k) => sum + before[k] * now[k], -1) / 2;
+      assert.ok(Math.acos(Math.min(1, cosine)) < 0.1, `frame ${frame}`);
+    }
+    before = now;
+    if (frame === 0) assert.equal(distance, model.sample('Idle', 0).reach(chain, target).distance);
+  }
+  state.forget(chain).reset();
+  assert.equal(model.pose().reachAll(state, 0.1) instanceof Pose, true);
+  const other = await Model.open(read(example('mannequin')), { runtime: plain });
+  assert.throws(() => other.pose().reach(chain, target, { state }), { code: 'BAD_ARGUMENT', message: /state is of another model than pose/ });
+  assert.throws(() => model.pose().reach(chain, target, { state: 3 }), { code: 'BAD_ARGUMENT' });
+  state.dispose();
+  assert.throws(() => model.pose().reach(chain, target, { state }), { code: 'DISPOSED' });
+  other.dispose();
+  model.dispose();
 });
 
 test('what a chain follows is carried by default', async () => {

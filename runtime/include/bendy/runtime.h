@@ -42,6 +42,7 @@
 #include <bendy/runtime/morph_targets.h>
 #include <bendy/runtime/playback.h>
 #include <bendy/runtime/pose.h>
+#include <bendy/runtime/reach_state.h>
 #include <bendy/runtime/retarget.h>
 #include <bendy/runtime/root_motion.h>
 #include <bendy/runtime/sample.h>

@@ -3,6 +3,7 @@
 #include <bendy/runtime/constrain.h>
 
 #include "ik_carry.h"
+#include "ik_over_time.h"
 #include "ik_problem.h"
 #include "ik_quick.h"
 #include "math/rigid_part.h"
@@ -26,18 +27,22 @@ namespace {
 /// One call of reach: converts between the model and the problem.
 class Reach {
 public:
-    Reach(const Chain& chain, const ReachTarget& target, Pose& pose, const ReachOptions& options)
+    Reach(const Chain& chain, const ReachTarget& target, Pose& pose, const ReachOptions& options,
+          const ReachStart* start)
         : chain_(chain),
           target_(target),
           model_(pose.model()),
           joints_(model_.joints()),
           state_(PoseState::of(pose)),
           options_(options),
+          start_(start),
           links_(std::span(state_.ik_links).first(chain.links)) {}
 
-    /// Returns nothing, and leaves the pose unchanged, if a number is not finite.
+    /// Returns nothing, and leaves the pose unchanged, if a number is not finite, or if another start than the pose
+    /// makes no difference.
     std::optional<ReachResult> run() {
         if (!gather()) return std::nullopt;
+        if (start_ != nullptr && start_->use == ReachStart::Use::start && problem_.has_pole) return std::nullopt;
         const bool is_aim = solver() == Solver::aim;
         ReachResult result;
         result.iterations = solve();
@@ -102,7 +107,8 @@ private:
                 is_free ? glm::normalize(glm::dquat(joint.rest.rotation)) : state_.data->rest_frames[number];
             link.freedom = link.constraint == nullptr ? glm::dvec3(1.0) : glm::dvec3(1.0) - link.constraint->stiffness;
             link.saved = glm::normalize(glm::dquat(transform.rotation));
-            link.local = legal_local(link, link.saved);
+            link.local = legal_local(link, start_ == nullptr ? link.saved : glm::normalize(glm::dquat(start_->at(i))));
+            if (start_ != nullptr && start_->use == ReachStart::Use::stay_near) link.saved = link.local;
         }
         problem_.scale = length > 0.0 ? length : 1.0;
         problem_.reach = length > 0.0 ? 1.0 : 0.0;
@@ -230,9 +236,11 @@ private:
     }
 
     std::uint32_t solve() {
+        if (start_ != nullptr && start_->use == ReachStart::Use::finish) return 0;
         const Solver chosen = solver();
         if (chosen == Solver::aim) return solve_aim(problem_);
         if (chosen == Solver::pull) return solve_pull(problem_);
+        if (start_ != nullptr) return solve_again(problem_);
         if (is_far_ && problem_.position_weight > 0.0) point_at_target(problem_);
         // Two bones turn to their pole even if the tip is already there.
         const bool is_closed = chosen == Solver::two_bone;
@@ -299,6 +307,7 @@ private:
     std::span<const Joint> joints_;
     PoseState& state_;
     const ReachOptions& options_;
+    const ReachStart* start_;  ///< null: the pose
     std::span<IkLink> links_;
     IkProblem problem_;
     glm::dmat4 base_{1.0};
@@ -314,16 +323,19 @@ Result<ReachResult, CallError> reach(Pose& pose, const Chain* chain, const Reach
                                      const ReachOptions& options) {
     if (const auto checked = PoseState::of(pose).data->check(chain); !checked) return checked.error();
     if (!std::isfinite(target.position.x + target.position.y + target.position.z)) return CallError::not_finite;
-    std::optional<ReachResult> result = reach_quickly(*chain, target, pose, options);
-    if (!result) result = reach_at_length(*chain, target, pose, options);
+    if (options.state != nullptr && !(options.state->model() == pose.model())) return CallError::other_model;
+    ReachOverTime over_time(*chain, target, pose, options);
+    std::optional<ReachResult> result = reach_quickly(*chain, target, pose, over_time.options());
+    if (!result) result = reach_at_length(*chain, target, pose, over_time.options());
+    result = over_time.follow(result);
     if (!result) return CallError::not_finite;
     carry_to_tip(*chain, carried_joint(*chain, pose, options), pose);
     return *result;
 }
 
 std::optional<ReachResult> reach_at_length(const Chain& chain, const ReachTarget& target, Pose& pose,
-                                           const ReachOptions& options) {
-    return Reach(chain, target, pose, options).run();
+                                           const ReachOptions& options, const ReachStart* start) {
+    return Reach(chain, target, pose, options, start).run();
 }
 
 }  // namespace bendy

@@ -126,4 +126,11 @@ std::uint32_t solve_from(IkProblem& problem, bool is_closed) {
     return descents.finish();
 }
 
+std::uint32_t solve_again(IkProblem& problem) {
+    problem.stays_close = true;
+    Descents descents(problem);
+    (void)descents.descend();
+    return descents.finish();
+}
+
 }  // namespace bendy

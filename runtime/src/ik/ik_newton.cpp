@@ -41,13 +41,14 @@ public:
     std::uint32_t run(std::uint32_t most) {
         std::uint32_t iteration = 0;
         read();
-        if (problem_.is_reached()) return 0;
-        constexpr double kFirst = 3.0, kLast = 1e-6;
+        if (problem_.is_reached() && !problem_.stays_close) return 0;
+        constexpr double kFirst = 3.0, kClose = 1e-3, kLast = 1e-6;
         constexpr std::uint32_t kFew = 16;
         const double factor = most < kFew ? 0.03 : 0.3;
         constexpr double kSettled = 1e-3;  // radians
         const double off = problem_.cost();
         spring_ = std::clamp(kFirst * off * std::sqrt(off), kLast, kFirst);  // less, the nearer the target is
+        if (problem_.stays_close) spring_ = kClose;
         double value = objective();
         while (iteration < most) {
             ++iteration;

@@ -21,6 +21,7 @@ struct IkProblem {
     double scale = 1.0;         ///< metres per chain length
     glm::dvec3 target{0};       ///< wanted position of the tip
     bool has_rotation = false;  ///< whether target_rotation counts
+    bool stays_close = false;   ///< to where the links are rather than to where they were saved
     double position_weight = 1.0;
     double rotation_weight = 0.0;
     glm::dquat target_rotation{1, 0, 0, 0};
@@ -141,6 +142,8 @@ std::uint32_t solve_least_squares(IkProblem& problem);
 std::optional<std::uint32_t> solve_newton(IkProblem& problem);
 /// Solves from the pose at hand, or in closed form, and if that does not reach, from other starts: see ik_descend.cpp.
 std::uint32_t solve_from(IkProblem& problem, bool is_closed);
+/// Solves from where the links are, close to there, and does not try other starts.
+std::uint32_t solve_again(IkProblem& problem);
 /// Points every bone in turn at the target: for a chain that cannot reach it.
 void point_at_target(IkProblem& problem);
 

@@ -35,10 +35,14 @@ bool are_legal(const Chain& chain, const Pose& pose, const ReachOptions& options
 /// Moves such a chain's effector inside its limits, as the other solvers do.
 void make_end_legal(const Chain& chain, Pose& pose, const ReachOptions& options);
 
+struct ReachStart;
+
 /// Reaches with a chain that has no fast path, for a target with finite numbers.
+/// \param start  the rotations to begin with, without others if they do not reach; null: those of the pose
 ///
-/// Returns nothing, and leaves the pose unchanged, if a number in the pose, the chain or the target is not finite.
+/// Returns nothing, and leaves the pose unchanged, if a number in the pose, the chain or the target is not finite, or
+/// if a pole decides the pose, whatever the start.
 std::optional<ReachResult> reach_at_length(const Chain& chain, const ReachTarget& target, Pose& pose,
-                                           const ReachOptions& options);
+                                           const ReachOptions& options, const ReachStart* start = nullptr);
 
 }  // namespace bendy

@@ -1,6 +1,7 @@
 #include <bendy/runtime/ik.h>
 
 #include "ik_carry.h"
+#include "ik_over_time.h"
 #include "ik_quick.h"
 #include "kernels/kernel_table.h"
 #include "math/rigid_part.h"
@@ -66,7 +67,8 @@ private:
         if constexpr (!kSolvesLimbsTogether) return false;
         if (kernels_.two_bones == nullptr || count_ == kLimbs) return false;
         const auto& [chain, target, options] = request;
-        if (!PoseState::of(pose_).data->check(chain) || !is_finite(target) ||
+        const bool is_other = options.state != nullptr && !(options.state->model() == pose_.model());
+        if (is_other || !PoseState::of(pose_).data->check(chain) || !is_finite(target) ||
             !is_plain_limb(*chain, target, pose_, options)) {
             return false;
         }
@@ -89,12 +91,14 @@ private:
         const bool has_limits = block_.limbs.has_limits[0][limb] > 0.0;
         if (!(distance >= 0.0) || (has_limits && !are_legal(*chain, pose_, options, upper, lower))) return false;
         PoseState& state = PoseState::of(pose_);
+        ReachOverTime over_time(*chain, target, pose_, options);
         state.set_rotation(chain->record.start, glm::quat(upper));
         state.set_rotation(state.data->parents[chain->record.effector], glm::quat(lower));
         if (has_limits) make_end_legal(*chain, pose_, options);
-        carry_to_tip(*chain, limbs_[limb].carried, pose_);
         const ReachStatus status = block_.out_of_reach[limb] > 0.0 ? ReachStatus::out_of_reach : ReachStatus::reached;
-        note(limbs_[limb].number, ReachResult{status, static_cast<float>(distance), 0.0f, 1});
+        const auto result = over_time.follow(ReachResult{status, static_cast<float>(distance), 0.0f, 1});
+        carry_to_tip(*chain, limbs_[limb].carried, pose_);
+        note(limbs_[limb].number, *result);
         return true;
     }
 
@@ -131,10 +135,11 @@ Result<void, CallError> reach(Pose& pose, std::span<const ReachRequest> requests
     return together.outcome();
 }
 
-void reach_all(Pose& pose) {
+void reach_all(Pose& pose, ReachState* reached, float seconds) {
     const Model& model = pose.model();
     PoseState& state = PoseState::of(pose);
     Together together(pose, {});
+    if (reached != nullptr && !(reached->model() == model)) reached = nullptr;
     for (const std::uint32_t number : model.chain_order()) {
         const Chain& chain = model.chains()[number];
         if (chain.record.target == kNone || !(chain.record.influence > 0.0f)) continue;
@@ -143,6 +148,8 @@ void reach_all(Pose& pose) {
         ReachRequest request{&chain, glm::vec3(followed[3]), {}};
         if (chain.record.rotation_weight > 0.0f) request.target.rotation = glm::quat(rigid_rotation(followed));
         request.options.influence = chain.record.influence;
+        request.options.state = reached;
+        request.options.seconds = seconds;
         request.options.carry_target = false;  // what the chain follows is its goal
         together.add(request, number);
     }

@@ -36,6 +36,11 @@ public:
     [[nodiscard]] const Numbers& low() const { return low_; }
     [[nodiscard]] const Numbers& high() const { return high_; }
     [[nodiscard]] const Numbers& values() const { return values_; }
+    /// Returns true if a number is an angle that nothing limits: it goes around.
+    [[nodiscard]] bool goes_around(std::size_t number) const {
+        const bool is_angle = kind_ == Kind::hinge || kind_ == Kind::euler || number == 2;
+        return kind_ != Kind::free && is_angle && !(high_[number] < std::numeric_limits<double>::infinity());
+    }
 
     /// Returns the link's angular velocities, in its parent's space, as each number grows.
     [[nodiscard]] std::array<glm::dvec3, 3> axes() const;

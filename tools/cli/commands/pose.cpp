@@ -1,6 +1,7 @@
 #include "commands/commands.h"
 #include "commands/frames.h"
 #include "commands/model_options.h"
+#include "commands/reaching.h"
 #include "files/input.h"
 #include "files/output.h"
 #include "files/progress.h"
@@ -102,7 +103,7 @@ public:
         : arguments_(arguments),
           model_(model),
           clip_(arguments.has_clip ? &find_clip(arguments.clip, arguments.file, model) : nullptr),
-          goals_(find_goals(arguments.reach, arguments.file, model)),
+          reaching_(arguments.reach, arguments.file, model),
           lod_(level_of(arguments.file, model, arguments.lod)) {}
 
     /// \param time  on the clip's time line, seconds
@@ -111,7 +112,7 @@ public:
         object.file = arguments_.file.filename().string();
         Pose pose(model_);
         if (clip_ != nullptr) {
-            (void)sample(pose, clip_, time);
+            sample_clip(pose, time);
             object.clip = clip_->name.empty() ? arguments_.clip : std::string(clip_->name);
             object.time = time;
             object.curves = sample_curves(*clip_, time);
@@ -132,21 +133,29 @@ public:
 
     /// The clip; with --frames there is one.
     [[nodiscard]] const Clip* clip() const { return clip_; }
+    /// From now on, the poses are those frames of the clip.
+    void follow_frames(const FrameRange& range) {
+        reaching_.follow_frames(*clip_, range, [&](Pose& pose, float time) { sample_clip(pose, time); });
+    }
     /// Prints how near each chain came to its target.
-    void print_tally() const { tally_.print(arguments_.file, model_, goals_); }
+    void print_reached() const { reaching_.print(); }
 
 private:
+    void sample_clip(Pose& pose, float time) const { (void)sample(pose, clip_, time); }
+
     /// Applies --reach and its related options to the pose.
     std::vector<PosedReach> reach_chains(Pose& pose, float time) {
-        const std::vector<Reached> results = reach_goals(arguments_.reach, goals_, pose);
-        tally_.add(goals_, results, time);
+        reaching_.apply(pose, time);
+        reaching_.count();
         std::vector<PosedReach> reaches;
-        for (std::size_t k = 0; k < goals_.size(); ++k) {
-            const Chain& chain = *goals_[k].chain;
-            const ReachResult result = results[k].value_or(ReachResult());
+        for (std::size_t k = 0; k < reaching_.goals().size(); ++k) {
+            const ReachGoal& goal = reaching_.goals()[k];
+            const Reached& reached = reaching_.results()[k];
+            const Chain& chain = *goal.chain;
+            const ReachResult result = reached.value_or(ReachResult());
             reaches.push_back(
                 {chain.name.empty() ? std::to_string(&chain - model_.chains().data()) : std::string(chain.name),
-                 goals_[k].target, result.distance, result.angle, goals_[k].is_aim(), has_reached(results[k])});
+                 goal.target, result.distance, result.angle, goal.is_aim(), has_reached(reached)});
         }
         return reaches;
     }
@@ -168,9 +177,8 @@ private:
     const PoseArguments& arguments_;
     const Model& model_;
     const Clip* clip_;
-    std::vector<ReachGoal> goals_;
+    Reaching reaching_;
     Lod lod_;
-    ReachTally tally_;
 };
 
 /// The frames of --frames, and where each is written; without --frames, one pose.
@@ -210,6 +218,7 @@ void run(const PoseArguments& arguments) {
     if (range) warn_outside(arguments.file, *poser.clip(), *range);
     if (range) {
         ProgressBar bar("posing");
+        poser.follow_frames(*range);
         for (std::size_t k = 0; k < poses.size(); ++k) {
             outputs.stage(poses[k].file, as_byte_span(writer(poser.pose_at(poses[k].time))));
             bar.show(k + 1, poses.size());
@@ -218,7 +227,7 @@ void run(const PoseArguments& arguments) {
     } else {
         outputs.write(poses.front().file, writer(poser.pose_at(poses.front().time)));
     }
-    poser.print_tally();
+    poser.print_reached();
 }
 
 }  // namespace
@@ -237,7 +246,8 @@ void add_pose(CLI::App& program) {
     command
         ->add_option("--frames", arguments->frames,
                      "A..B@RATE: frames A to B of the clip, RATE per second; frame k is at k / RATE seconds. OUT has # "
-                     "where the frame's number goes, as in run_####.obj")
+                     "where the frame's number goes, as in run_####.obj. With --reach, each frame follows from those "
+                     "before it, from the clip's start on: no chain jumps")
         ->needs(clip)
         ->excludes(time);
     add_reach(*command, arguments->reach);

@@ -5,6 +5,7 @@
 
 #include "commands/frames.h"
 #include "commands/model_options.h"
+#include "commands/reaching.h"
 #include "files/input.h"
 #include "files/output.h"
 #include "files/progress.h"
@@ -162,34 +163,41 @@ void check_frames(const RenderArguments& arguments, const std::string& format) {
 class ReachingMaker {
 public:
     ReachingMaker(const RenderArguments& arguments, const Model& model)
-        : goals_(find_goals(arguments.reach, arguments.file, model)),
+        : stands_(arguments.stands),
+          reaching_(arguments.reach, arguments.file, model),
           maker_(model, options_of(arguments),
                  [&](const std::string& what) { warn(arguments.file, printable(what)); }) {}
 
     viewer::Picture draw(float time) {
+        time_ = time;
         viewer::Picture picture = maker_.draw(time);
-        tally_.add(goals_, results_, time);
+        reaching_.count();
         return picture;
+    }
+    /// From now on, the pictures are those frames of the clip.
+    void follow_frames(const Clip& clip, const std::optional<FrameRange>& range) {
+        if (!range) return reaching_.follow_frames();
+        reaching_.follow_frames(clip, *range, [&](Pose& pose, float time) { (void)sample(pose, &clip, time); });
     }
     viewer::Picture draw_nothing() { return maker_.draw_nothing(); }
 
     [[nodiscard]] const std::string& context() const { return maker_.context(); }
-    void print_tally(const std::filesystem::path& file, const Model& model) const { tally_.print(file, model, goals_); }
+    void print_reached() const { reaching_.print(); }
 
 private:
     viewer::RenderOptions options_of(const RenderArguments& arguments) {
         viewer::RenderOptions options = arguments.render;
-        options.adjust = [this, &request = arguments.reach, stands = arguments.stands](Pose& pose) {
-            if (stands) (void)stand(pose);
-            results_ = reach_goals(request, goals_, pose);
+        options.adjust = [this](Pose& pose) {
+            if (stands_) (void)stand(pose);
+            reaching_.apply(pose, time_);
         };
-        for (const ReachGoal& goal : goals_) options.targets.push_back({goal.chain, goal.target.position});
+        for (const ReachGoal& goal : reaching_.goals()) options.targets.push_back({goal.chain, goal.target.position});
         return options;
     }
 
-    std::vector<ReachGoal> goals_;
-    std::vector<Reached> results_;  // in the last pose
-    ReachTally tally_;
+    bool stands_;
+    float time_ = 0.0f;
+    Reaching reaching_;
     viewer::PictureMaker maker_;
 };
 
@@ -261,6 +269,8 @@ void draw_all(RenderArguments& arguments, const Model& model, const std::string&
     ReachingMaker maker(arguments, model);
     if (arguments.verbose) std::cerr << "bendy: drawing with " << printable(maker.context()) << '\n';
     const float start = render.clip == nullptr ? 0.0f : render.clip->start;
+    if (render.clip != nullptr && (is_animation || frames.number() > 1))
+        maker.follow_frames(*render.clip, frames.range);
     if (is_sequence(arguments, format)) {
         draw_sequence(maker, arguments, outputs);
     } else if (is_animation) {
@@ -270,7 +280,7 @@ void draw_all(RenderArguments& arguments, const Model& model, const std::string&
     } else {
         outputs.write(arguments.output, viewer::encode_png(maker.draw(arguments.has_time ? arguments.time : start)));
     }
-    maker.print_tally(arguments.file, model);
+    maker.print_reached();
 }
 
 /// Notes the files that the command writes.
@@ -347,7 +357,8 @@ void add_render(CLI::App& program) {
         "--frames", arguments->frames,
         "N pictures, 1 to 1000, spread over the clip; or A..B@RATE: frames A to B, RATE per second. "
         "They are a sheet in OUT.png, the frames of an animation in OUT.gif and OUT.webp, and files of "
-        "their own if a # in OUT.png is the place of A to B, as in run_####.png");
+        "their own if a # in OUT.png is the place of A to B, as in run_####.png. With --reach, each frame follows from "
+        "those before it: no chain jumps");
     stand->excludes(drawn_frames);
     command->add_option("--size", arguments->size, "WIDTHxHEIGHT of a picture, pixels; 1024x768, of several 320x240");
     command->add_option("--camera", arguments->camera,

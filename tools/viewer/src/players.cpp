@@ -78,7 +78,7 @@ glm::quat rotation_of(const glm::mat4& matrix) {
 }  // namespace
 
 Player::Player(const Model& model)
-    : clip(model.clips().empty() ? kNone : 0), model_(&model), pose_(model), mixed_in_(model) {
+    : clip(model.clips().empty() ? kNone : 0), model_(&model), pose_(model), mixed_in_(model), reached_(model) {
     update();
     for (const Chain& chain : model.chains()) {
         const bool has_target = chain.record.target != kNone;
@@ -105,10 +105,10 @@ void Player::step(double seconds) {
         const double next = static_cast<double>(phase) + seconds * static_cast<double>(speed) / whole;
         phase = static_cast<float>(next - std::floor(next));
     }
-    update();
+    update(seconds);
 }
 
-void Player::update() {
+void Player::update(double seconds) {
     if (clip < model_->clips().size()) {
         sample_at_phase(clip, pose_);
         if (other < model_->clips().size()) {
@@ -119,9 +119,16 @@ void Player::update() {
         pose_.set_rest();
     }
     if (obeys_constraints) constrain(pose_);
+    ReachOptions options;
+    options.state = &reached_;
+    options.seconds = static_cast<float>(seconds);
     for (const std::uint32_t number : model_->chain_order()) {
-        if (number < chains.size() && chains[number].is_on)
-            (void)reach(pose_, &model_->chains()[number], chains[number].target);
+        const Chain& chain = model_->chains()[number];
+        if (number < chains.size() && chains[number].is_on) {
+            (void)reach(pose_, &chain, chains[number].target, options);
+        } else {
+            (void)reached_.forget(&chain);
+        }
     }
 }
 

@@ -26,7 +26,7 @@ public:
 
     void step(double seconds);
     /// Computes the pose for the current time, without advancing it.
-    void update();
+    void update() { update(0.0); }
 
     bool is_playing = true;
     bool obeys_constraints = false;  ///< clamps the clip's pose to the constraints
@@ -42,11 +42,13 @@ public:
     [[nodiscard]] Pose& pose() { return pose_; }
 
 private:
+    void update(double seconds);
     void sample_at_phase(std::uint32_t number, Pose& pose) const;
 
     const Model* model_;
     Pose pose_;
     Pose mixed_in_;
+    ReachState reached_;
 };
 
 enum class DemoKey : std::uint8_t {

@@ -22,6 +22,7 @@ import {
   type Pose,
   type ReachOptions,
   type ReachResult,
+  ReachState,
   type RotationLike,
   type SkinOptions,
 } from '../index.js';
@@ -103,6 +104,8 @@ export class BendyAnimator {
   #fade: CrossFade; // of the model whose clips play
   #borrowed: Borrowed | null = null;
   readonly #other: Pose;
+  readonly #reached: ReachState;
+  #seconds: number | null = null; // of the update that runs
   readonly #method: NonNullable<SkinOptions['method']>;
   readonly #skinned: Skinned[] = [];
   readonly #attributes = new Map<number, Attributes>();
@@ -118,6 +121,7 @@ export class BendyAnimator {
     this.character = character;
     this.pose = model.pose();
     this.#other = model.pose();
+    this.#reached = new ReachState(model);
     this.#fade = new CrossFade(model);
     this.#method = options.method ?? 'linear';
     this.#palettes = options.joints === 'needed' && options.skin !== 'wasm' ? new Palettes(character) : null;
@@ -172,6 +176,7 @@ export class BendyAnimator {
     const { model } = this.#fade;
     this.#fade.dispose();
     this.#fade = new CrossFade(model);
+    this.#reached.reset();
     this.pose.reset();
     return this;
   }
@@ -182,8 +187,9 @@ export class BendyAnimator {
   }
 
   /**
-   * Moves an IK chain so that its tip reaches a target, within the joints' limits, starting from the current pose. Lengths in
-   * options and result are metres of the model. Throws NOT_FOUND, BAD_ARGUMENT.
+   * Moves an IK chain so that its tip reaches a target, within the joints' limits, starting from the current pose. Called by
+   * `adjust` of `update`, it remembers what the chain did in the last update, so that the chain does not jump. Lengths in options and
+   * result are metres of the model. Throws NOT_FOUND, BAD_ARGUMENT.
    */
   reach(chain: Key<Chain>, target: PointLike, options: AnimatorReachOptions = {}): ReachResult {
     this.#check();
@@ -198,7 +204,7 @@ export class BendyAnimator {
       point.set(component(p, 0, 3, name), component(p, 1, 3, name), component(p, 2, 3, name));
       return (isWorld ? point.applyMatrix4(toModel) : point).toArray();
     };
-    const given: ReachOptions = rest;
+    const given: ReachOptions = this.#seconds === null ? rest : { state: this.#reached, seconds: this.#seconds, ...rest };
     if (pole !== undefined) given.pole = place(pole, 'pole');
     if (rotation !== undefined) {
       const part = (i: number): number => component(rotation, i, 4, 'rotation');
@@ -220,7 +226,12 @@ export class BendyAnimator {
       this.#fade.advance(seconds).sample(this.#borrowed?.pose ?? this.pose);
       this.#borrowed?.apply(this.pose);
     }
-    adjust?.(this);
+    this.#seconds = Math.min(Math.max(seconds, 0), 1);
+    try {
+      adjust?.(this);
+    } finally {
+      this.#seconds = null;
+    }
     return this.apply();
   }
 
@@ -292,6 +303,7 @@ export class BendyAnimator {
     this.#attributes.clear();
     this.#endPlaying();
     this.#other.dispose();
+    this.#reached.dispose();
     this.pose.dispose();
   }
 

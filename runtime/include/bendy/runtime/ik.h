@@ -15,6 +15,8 @@
 // Inverse kinematics: makes chains of the model reach for targets, within their joints' constraints.
 namespace BENDY_PUBLIC bendy {
 
+class ReachState;
+
 /// The target of a chain, in model space.
 struct ReachTarget {
     glm::vec3 position{0.0f};           ///< metres
@@ -45,6 +47,12 @@ struct ReachOptions {
     /// of its leg then stays at the leg's end. Has no effect if the chain follows no joint, or one that is in, above or
     /// below the chain.
     bool carry_target = true;
+    /// What the chains of this character did last, for chains that reach in frame after frame; null: each call is by
+    /// itself. Not of pull, which takes several frames itself.
+    ReachState* state = nullptr;
+    float seconds = 0.0f;      ///< with a state: since the last call, 0 to 1
+    float speed_limit = 4.0f;  ///< with a state: radians per second, 0 or more: how fast a chain goes from one pose to
+                               ///< another, beyond what the pose that comes in and the target turn it
 };
 
 enum class ReachStatus : std::uint8_t {
@@ -81,8 +89,12 @@ struct ReachResult {
 /// target give a mirrored result, provided that the chain is bent, has a pole, or its constraints allow it to turn
 /// farther to one side.
 ///
+/// With a state, the result is continuous over time: a chain stays inside its limits, then obeys options.speed_limit,
+/// and only then reaches; the result says how far it is off meanwhile.
+///
 /// A target that is not reached is a result, not an error. Returns an error, and leaves the pose unchanged, if the
-/// chain is null or does not belong to the pose's model, or if a number in the pose or the target is not finite.
+/// chain is null, if it or the state does not belong to the pose's model, or if a number in the pose or the target is
+/// not finite.
 [[nodiscard]] Result<ReachResult, CallError> reach(Pose& pose, const Chain* chain, const ReachTarget& target,
                                                    const ReachOptions& options = {});
 
@@ -102,6 +114,8 @@ struct ReachRequest {
 
 /// Solves every chain that follows a target joint, in order of priority, with each chain's own influence. The joints
 /// that are followed stay where they are.
-void reach_all(Pose& pose);
+/// \param state    as ReachOptions::state; one of another model is not used
+/// \param seconds  since the last call with that state
+void reach_all(Pose& pose, ReachState* state = nullptr, float seconds = 0.0f);
 
 }  // namespace bendy
