@@ -13,7 +13,7 @@ import * as THREE from 'three';
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { clone } from 'three/addons/utils/SkeletonUtils.js';
-import { BendyError, Model, Retarget, RetargetState } from '../dist/index.js';
+import { BendyError, CrossFade, Model, ReachState, Retarget, RetargetState } from '../dist/index.js';
 import { BendyAnimator, BendyCrowd, BendyLoader, cloneCharacter, setLevelOfDetail } from '../dist/three/index.js';
 
 const repository = fileURLToPath(new URL('../../../', import.meta.url));
@@ -761,6 +761,27 @@ test('an animator plays the clips of another human, and its own again', async ()
   animator.stop().update(0.2);
   assert.deepEqual(animator.pose.locals, character.model.pose().locals);
   animator.borrow(await Model.open(dancer)).dispose();
+});
+
+test('a chain that reaches within update remembers what it did', async () => {
+  const file = path.join(folder, 'reaching.bendy');
+  execFileSync(program, ['convert', '-q', path.join(repository, 'examples/mannequin.glb'), '-o', file]);
+  const character = await new BendyLoader().parseAsync(fs.readFileSync(file));
+  const { model } = character;
+  const animator = new BendyAnimator(character).play('Idle');
+  const [state, pose, clock] = [new ReachState(model), model.pose(), new CrossFade(model).play('Idle')];
+  const [target, options] = [[-0.2, 1.5, 0.3], { space: 'model' }];
+  for (let frame = 0; frame < 60; ++frame) {
+    animator.update(1 / 60, () => animator.reach('IK_LeftArm', target, options));
+    clock.advance(1 / 60).sample(pose);
+    pose.reach('IK_LeftArm', target, { state, seconds: 1 / 60 });
+    assert.deepEqual(animator.pose.locals, pose.locals, `frame ${frame}`);
+  }
+  const alone = model.sample('Idle', 0.7);
+  const expected = alone.reach('IK_LeftArm', target);
+  assert.deepEqual(animator.sample('Idle', 0.7).reach('IK_LeftArm', target, options), expected);
+  assert.deepEqual(animator.pose.locals, alone.locals);
+  animator.dispose();
 });
 
 test('images stay undecoded without a browser', { skip }, async () => {
