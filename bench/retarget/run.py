@@ -27,13 +27,13 @@ sys.path.append(str(HERE.parents[1] / "scripts"))
 from own_folder import work_folder  # noqa: E402
 
 RIGS = HERE.parent / "rigs.json"
-FREE = ("--ignore-constraints", "--free-feet")
+FREE = ("--limits", "off", "--free-feet")
 SURFACE = ("--strip", "meshes", "--strip", "textures", "--strip", "materials")
 
 
 class Bench:
-    def __init__(self, bendy, folders, work, rigging):
-        self.bendy, self.folders, self.work, self.rigging = bendy, folders, work, rigging
+    def __init__(self, bendy, folders, work, rigging, limits):
+        self.bendy, self.folders, self.work, self.rigging, self.limits = bendy, folders, work, rigging, limits
 
     def run(self, *arguments):
         result = subprocess.run([self.bendy, *map(str, arguments)], capture_output=True, text=True, check=False)
@@ -74,7 +74,7 @@ class Bench:
         """Jobs for the judge: one for each clip."""
         stem = self.work / f"{source['name']}_on_{target['name']}"
         full, free, back = (stem.with_suffix(f".{kind}.bendy") for kind in ("full", "free", "back"))
-        said = self.run("edit", target["target"], "-o", full, "--retarget", source["source"])
+        said = self.run("edit", target["target"], "-o", full, "--retarget", source["source"], "--limits", self.limits)
         self.run("edit", "-q", target["target"], "-o", free, "--retarget", source["source"], *FREE)
         self.run("edit", "-q", source["target"], "-o", back, "--retarget", full, *FREE)
         files = {"full": self.export(full), "free": self.export(free), "back": self.export(back)}
@@ -116,7 +116,7 @@ class Bench:
     def own(self, rig):
         """Whether a rig's own clips come back as the same bytes, but for contact curves."""
         again = self.work / f"{rig['name']}.again.bendy"
-        self.run("edit", "-q", rig["target"], "-o", again, "--retarget", rig["source"], "--ignore-constraints")
+        self.run("edit", "-q", rig["target"], "-o", again, "--retarget", rig["source"], "--limits", "off")
         result = subprocess.run([self.bendy, "diff", rig["source"], again], capture_output=True, text=True, check=False)
         again.unlink()
         return [line for line in result.stdout.splitlines() if line.startswith(("+", "-", "~")) and "/CURV" not in line]
@@ -199,10 +199,11 @@ def main():
     parser.add_argument("--to", dest="target", default="")
     parser.add_argument("--kind", choices=("human", "quadruped", "bird"))
     parser.add_argument("--no-limits", action="store_true")
+    parser.add_argument("--limits", choices=("soft", "hard"), default="hard", help="of `bendy edit --retarget`")
     parser.add_argument("--json", type=pathlib.Path)
     options = parser.parse_args()
     bench = Bench(options.bendy.resolve(), [*options.chars, HERE.parent.parent / "examples"], options.work,
-                  () if options.no_limits else ("--auto-rig",))
+                  () if options.no_limits else ("--auto-rig",), options.limits)
     install(bench.work)
     listed = [rig for rig in json.loads(RIGS.read_text(encoding="utf-8")) if "clips" in rig
               and "odd_rest" not in rig and options.kind in (None, kind_of(rig))]

@@ -78,10 +78,11 @@ void time_clips(const Model& from, const Model& to, const RetargetOptions& optio
 int main(int argc, char** argv) {
     const auto bodies = open_bodies(std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
     if (!bodies) return 1;
-    const std::pair<const char*, RetargetOptions> kinds[] = {{"directions", {RestPoses::measured, false, false}},
-                                                             {"limits", {RestPoses::measured, true, false}},
-                                                             {"feet", {RestPoses::measured, false, true}},
-                                                             {"limits and feet", {RestPoses::measured, true, true}}};
+    const std::pair<const char*, RetargetOptions> kinds[] = {
+        {"directions", {RestPoses::measured, Limits::off, false}},
+        {"limits", {RestPoses::measured, Limits::hard, false}},
+        {"feet", {RestPoses::measured, Limits::off, true}},
+        {"limits and feet", {RestPoses::measured, Limits::hard, true}}};
     for (const auto& [name, options] : kinds) {
         Mean mean;
         for (const Model& from : *bodies) {

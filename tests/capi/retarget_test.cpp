@@ -94,8 +94,9 @@ TEST_F(CRetarget, PosesAreTheSameAsInCpp) {
         RetargetOptions cpp_options;
         if (is_other) {
             options.rest_poses = BENDY_REST_POSES_ALIKE;
-            options.obey_constraints = options.plants_feet = 0;
-            cpp_options = {RestPoses::alike, false, false};
+            options.limits = BENDY_LIMITS_OFF;
+            options.plants_feet = 0;
+            cpp_options = {RestPoses::alike, Limits::off, false};
         }
         const RetargetHandle retarget(bendy_retarget_new(source_.get(), target_.get(), &options, &error_));
         ASSERT_NE(retarget, nullptr) << error_.message;

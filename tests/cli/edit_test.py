@@ -366,7 +366,7 @@ class Retargeting(EditCase):
     def test_a_taken_name_is_refused_unless_said_otherwise(self):
         source = self.made("mannequin")
         self.assertIn("--same-name", self.failed("edit", source, "-o", "x.bendy", "--retarget", source))
-        again = self.edit(source, "--retarget", source, "--same-name", "number", "--ignore-constraints")
+        again = self.edit(source, "--retarget", source, "--same-name", "number", "--limits", "off")
         self.assertEqual(self.clips(again), ["Idle", "Walk", "Idle.001", "Walk.001"])
         self.assertEqual(self.worlds(again, "--clip", "Walk.001", "--time", "0.37"), self.worlds(again, *Merge.CLIP))
 

@@ -34,7 +34,7 @@ void disturb(Pose& pose, std::mt19937& random) {
 void put_on(const Model& target, const Model& source, std::mt19937& random) {
     RetargetOptions options;
     options.rest_poses = random() % 4 == 0 ? RestPoses::alike : RestPoses::measured;
-    options.obey_constraints = random() % 2 == 0;
+    options.limits = static_cast<Limits>(random() % 3);
     options.plants_feet = random() % 2 == 0;
     auto retargeting = Retarget::make(source, target, options);
     if (!retargeting) return fuzz::check(!error_text(retargeting.error()).empty(), "it is refused for a reason");

@@ -17,6 +17,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <random>
 #include <span>
 #include <string>
@@ -34,7 +35,7 @@ using test::ClipSpec;
 using test::HumanModel;
 using test::HumanSpec;
 
-constexpr RetargetOptions kDirections{RestPoses::measured, false, false};
+constexpr RetargetOptions kDirections{RestPoses::measured, Limits::off, false};
 
 /// A clip of a second in which every joint with a role swings about its own axes.
 ClipSpec swinging(const BodyModel& body, const std::string& name, double size = 0.5) {
@@ -193,6 +194,56 @@ TEST(RetargetClips, AQuickJointIsOutsideItsLimitsInNoFrame) {
         }
     }
     EXPECT_LT(worst, 1e-4);
+}
+
+/// A clip in which a forearm turns once about its own axis within two seconds.
+ClipSpec rolling(const HumanModel& human) {
+    ClipSpec clip{"Roll"};
+    clip.end = 2.0f;
+    clip.tracks.push_back({TrackPath::rotation, human.joint("leftForeArm"), 4, {}, {}});
+    for (int k = 0; k <= 8; ++k) {
+        const auto q = glm::angleAxis(glm::radians(45.0 * k), glm::dvec3(1, 0, 0));
+        clip.tracks.back().times.push_back(0.25f * static_cast<float>(k));
+        for (const double number : {q.x, q.y, q.z, q.w})
+            clip.tracks.back().values.push_back(static_cast<float>(number));
+    }
+    return clip;
+}
+
+TEST(RetargetClips, WhatWouldJumpAtALimitTurnsQuicklyInside) {
+    const HumanModel human(HumanSpec{.axes = 0});
+    ConstraintRecord twist;
+    twist.model = static_cast<std::uint8_t>(ConstraintModel::swing_twist_ellipse);
+    twist.rotation_min = {-1.2f, -1.5f, -1.5f};
+    twist.rotation_max = {1.2f, 1.5f, 1.5f};
+    for (const bool is_proposed : {false, true}) {
+        twist.flags = is_proposed ? kProposed : 0;
+        edit::Log log;
+        const test::Owned model(retargeted(counted(HumanModel({.axes = 0, .elbows = {twist}}).spec),
+                                           file_of(human, {rolling(human)}),
+                                           {"", {RestPoses::measured, Limits::soft, false}}, log));
+        const Clip& clip = model->clips()[0];
+        const std::uint32_t elbow = model->joint("leftForeArm");
+        const Constraint& limit = *model->constraint(elbow);
+        Pose pose(*model);
+        std::optional<glm::dquat> last;
+        double quickest = 0.0, farthest = 0.0;
+        constexpr int kRate = 480;
+        for (int frame = 0; frame <= 2 * kRate; ++frame) {
+            ASSERT_TRUE(sample(pose, &clip, static_cast<float>(frame) / kRate));
+            const glm::dquat now = glm::normalize(glm::dquat(pose.local(elbow).rotation));
+            if (last)
+                quickest = std::max(quickest, 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(*last, now)))) * kRate);
+            last = now;
+            const glm::quat& rest = model->joints()[elbow].rest.rotation;
+            farthest = std::max(farthest, violation(limit, to_constraint_space(limit, rest, glm::quat(now))));
+        }
+        // The source turns by pi a second.
+        EXPECT_LT(quickest, kTurnSpeed + (1.0 + kOfSource) * glm::radians(180.0));
+        EXPECT_GT(quickest, 1.2 * glm::radians(180.0));
+        EXPECT_GT(farthest, is_proposed ? 0.1 : -1.0);
+        EXPECT_LT(farthest, is_proposed ? kSoftLimit : 1e-4);
+    }
 }
 
 TEST(RetargetClips, AJumpStaysAJump) {
@@ -437,7 +488,7 @@ TEST(RetargetClips, BonesThatPointElsewhereThanTheSourcesAreNamedWithTheCause) {
     const HumanSpec robot{.axes = 0, .elbows = {stiff}};
     EXPECT_EQ(warnings(robot, turning(human, {{"leftForeArm", -60.0, y}}))[0],
               "limits turn bones far from the source's directions in 1 clip, most \"leftForeArm\" by 50 degrees in "
-              "\"Turn\" at 1 s; --ignore-constraints goes beyond them");
+              "\"Turn\" at 1 s; --limits off goes beyond them");
 
     const HumanSpec hanging{.arms_down = 55.0, .axes = 3};
     EXPECT_EQ(

@@ -129,7 +129,7 @@ TEST(Stand, FeetArePlantedOnTheGroundOfTheClips) {
     const std::uint32_t foot = plain.joint("leftFoot");
     const double stands = rest.model_space()[foot][3].y;
     const auto put = [&](const Model& source, const Model& target, float raised) {
-        auto made = Retarget::make(source, target, {RestPoses::measured, false, true});
+        auto made = Retarget::make(source, target, {RestPoses::measured, Limits::off, true});
         EXPECT_TRUE(made);
         Pose from(source), to(target);
         JointTransform local = from.local(hips);
@@ -158,7 +158,7 @@ TEST(Stand, IsWhatRetargetingMeasuresFrom) {
     const auto models =
         std::array{Model::from_memory(upright_file), Model::from_memory(*told), Model::from_memory(other_file)};
     const Model &standing = *models[0], &turned = *models[1], &third = *models[2];
-    constexpr RetargetOptions kDirections{RestPoses::measured, false, false};
+    constexpr RetargetOptions kDirections{RestPoses::measured, Limits::off, false};
     Pose from_standing(standing), from_turned(turned);
     for (const JointRole& role : standing.roles()) {
         JointTransform local = from_standing.local(role.joint);

@@ -76,7 +76,7 @@ def tall(mannequin, tmp_path_factory):
 @pytest.mark.parametrize("options, flags", [
     ({}, []),
     ({"clip": "Wal*"}, []),
-    ({"obey_constraints": False, "plants_feet": False}, ["--ignore-constraints", "--free-feet"]),
+    ({"limits": "off", "plants_feet": False}, ["--limits", "off", "--free-feet"]),
     ({"rest_poses": "alike"}, ["--rests-alike"]),
 ])
 def test_clips_come_as_by_the_program(mannequin, tall, program, tmp_path, options, flags):
@@ -90,7 +90,7 @@ def test_clips_come_as_by_the_program(mannequin, tall, program, tmp_path, option
 
 def test_options_of_retargeting_change_the_clip(mannequin, tall):
     usual, others = (bytes(bendy.edit(tall).retarget_clips(mannequin, "Walk", **options).data)
-                     for options in ({}, {"obey_constraints": False}))
+                     for options in ({}, {"limits": "off"}))
     assert usual != others
     assert usual != bytes(bendy.edit(tall).retarget_clips(mannequin, "Walk", plants_feet=False).data)
 

@@ -95,6 +95,6 @@ Retarget made(const PosedBody<Body>& source, const PosedBody<Body>& target, cons
 }
 
 /// Only the joints' turns and the hips' travel.
-inline constexpr RetargetOptions kDirections{RestPoses::measured, false, false};
+inline constexpr RetargetOptions kDirections{RestPoses::measured, Limits::off, false};
 
 }  // namespace bendy::test

@@ -96,7 +96,7 @@ TEST(RetargetAnimals, SpinesNecksAndTailsOfOtherNumbersEndAsTheSources) {
     Animal source(AnimalSpec{});
     for (const std::uint32_t count : {1u, 2u, 3u, 6u}) {
         Animal target(AnimalSpec{.body = {.facing = 90.0, .axes = 3}, .spine = count, .neck = count, .tail = count});
-        Retarget retargeted = made(source, target, {RestPoses::alike, false, false});
+        Retarget retargeted = made(source, target, {RestPoses::alike, Limits::off, false});
         const std::string last = std::to_string(count - 1);
         for (unsigned seed = 0; seed < 5; ++seed) {
             source.pose_at_random(seed, 0.2);

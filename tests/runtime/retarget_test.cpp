@@ -437,7 +437,7 @@ TEST(Retarget, StaysInsideTheTargetsConstraints) {
         EXPECT_LT(violation(constraint, to_constraint_space(constraint, rest.rotation, local)), 1e-5);
     }
     RetargetOptions without;
-    without.obey_constraints = false;
+    without.limits = Limits::off;
     Retarget free = made(source, target, without);
     done = retarget(target.pose(), free, source.pose(), state);
     ASSERT_TRUE(done);
@@ -475,13 +475,41 @@ const std::vector<HumanSpec> kBuilds{
     {.thigh = 0.5, .shin = 0.35, .is_detached = true, .axes = 6},
 };
 
+TEST(Retarget, ProposedLimitsAreSoftAndAuthoredOnesAreHard) {
+    const double radian = M_PI / 180.0;
+    for (const bool is_proposed : {false, true}) {
+        ConstraintRecord bend = largest_bend(30.0);
+        if (is_proposed) bend.flags = kProposed;
+        Human source(HumanSpec{}), target(HumanSpec{.elbows = {bend}});
+        const auto beyond = [&](Limits limits, double degrees) {
+            Retarget retargeted = made(source, target, {RestPoses::measured, limits, false});
+            source.pose().set_rest();
+            source.turn_by("leftForeArm", {0, 1, 0}, -degrees);
+            RetargetState state;
+            const auto done = retarget(target.pose(), retargeted, source.pose(), state);
+            EXPECT_TRUE(done);
+            const std::uint32_t elbow = target.joint("leftForeArm");
+            const glm::quat rest = target.model().joints()[elbow].rest.rotation,
+                            now = target.pose().local(elbow).rotation;
+            const double turned = angle_of(glm::dquat(rest), glm::dquat(now)) / radian;
+            EXPECT_NEAR(done->turned / radian, degrees - turned, 0.01);
+            return turned - 30.0;
+        };
+        EXPECT_NEAR(beyond(Limits::hard, 80.0), 0.0, 1e-3);
+        EXPECT_NEAR(beyond(Limits::off, 80.0), 50.0, 1e-3);
+        EXPECT_NEAR(beyond(Limits::soft, 80.0), is_proposed ? 50.0 / (1.0 + 50.0 / 15.0) : 0.0, 1e-3);
+        EXPECT_NEAR(beyond(Limits::soft, 31.0), is_proposed ? 1.0 / (1.0 + 1.0 / 15.0) : 0.0, 1e-3);
+        EXPECT_LT(beyond(Limits::soft, 170.0), 15.0);
+    }
+}
+
 TEST(Retarget, AForearmThatTurnsRightRoundDoesNotJumpAtItsLimits) {
     ConstraintRecord bend;
     bend.model = static_cast<std::uint8_t>(ConstraintModel::swing_twist_pyramid);
     bend.rotation_min = {-1.5f, -kInf, -kInf};
     bend.rotation_max = {1.5f, kInf, kInf};
     Human source(HumanSpec{.axes = 0}), target(HumanSpec{.axes = 0, .elbows = {bend}});
-    Retarget retarget = made(source, target, {RestPoses::measured, true, false});
+    Retarget retarget = made(source, target, {RestPoses::measured, Limits::hard, false});
     RetargetState state;
     double step = 0.0;
     glm::dquat last(1, 0, 0, 0);

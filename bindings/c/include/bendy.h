@@ -1329,15 +1329,23 @@ typedef enum bendy_rest_poses {
                                   hips' travel is scaled by the hips' height */
 } bendy_rest_poses;
 
+/* How the target's constraints act. */
+typedef enum bendy_limits {
+    BENDY_LIMITS_SOFT = 0, /* those that no author gave but a program proposed are soft: a joint that is to be e beyond
+                              one is e / (1 + e / 15 degrees) beyond it; all others are hard */
+    BENDY_LIMITS_HARD = 1, /* no joint is beyond its constraint */
+    BENDY_LIMITS_OFF = 2   /* none acts */
+} bendy_limits;
+
 typedef struct bendy_retarget_options {
     uint32_t size;
-    uint32_t rest_poses;       /* a bendy_rest_poses */
-    uint32_t obey_constraints; /* 1: the target's joints stay within their constraints */
+    uint32_t rest_poses;  /* a bendy_rest_poses */
+    uint32_t limits;      /* a bendy_limits: of the target */
     uint32_t plants_feet; /* 1: feet that touch the ground move as far as the source's, times the length of the legs */
 } bendy_retarget_options;
 
 #define BENDY_RETARGET_OPTIONS_INIT \
-    { sizeof(bendy_retarget_options), BENDY_REST_POSES_MEASURED, 1, 1 }
+    { sizeof(bendy_retarget_options), BENDY_REST_POSES_MEASURED, BENDY_LIMITS_SOFT, 1 }
 
 /* How poses of one model, `source`, become poses of another of different build, `target`: what corresponds is known
  * from bendy_joint.role, not from names; the rest poses may differ (arms out or down), face other ways and have other

@@ -581,12 +581,14 @@ struct Fields<bendy_retarget_options> {
         if (const bendy_status status =
                 check_value(from.rest_poses, BENDY_REST_POSES_ALIKE + 1, "rest_poses", "bendy_rest_poses", error))
             return status;
+        if (const bendy_status status = check_value(from.limits, BENDY_LIMITS_OFF + 1, "limits", "bendy_limits", error))
+            return status;
         return BENDY_OK;
     }
     template <class To>
     static void from_c(const bendy_retarget_options& from, To& to) {
         assign(from.rest_poses, to.rest_poses);
-        assign(from.obey_constraints, to.obey_constraints);
+        assign(from.limits, to.limits);
         assign(from.plants_feet, to.plants_feet);
     }
 };

@@ -257,7 +257,7 @@ test('clips are retargeted as by the program', async () => {
   for (const [options, args] of [
     [{ clip: 'Wal*' }, ['--retarget', `${exact}:Wal*`]],
     [{ sameName: 'number' }, ['--retarget', exact, '--same-name', 'number']],
-    [{ clip: 1, obeyConstraints: false, plantsFeet: false }, ['--retarget', `${exact}:1`, '--ignore-constraints', '--free-feet']],
+    [{ clip: 1, limits: 'off', plantsFeet: false }, ['--retarget', `${exact}:1`, '--limits', 'off', '--free-feet']],
     [{ clip: 'Walk', restPoses: 'alike' }, ['--retarget', `${exact}:Walk`, '--rests-alike']],
   ]) {
     const edited = await tools.retargetClips(bytes, source, options);
@@ -277,7 +277,7 @@ test('clips are retargeted as by the program', async () => {
   await assert.rejects(tools.stand(source, 'Walk'), { kind: 'bad_argument', message: /seconds/ });
   await assert.rejects(tools.standAs(bytes, read(join(repository, 'examples/mannequin.glb'))), { kind: 'malformed' });
   await assert.rejects(tools.retargetClips(bytes, source), { kind: 'edit', message: /"Idle"/ });
-  await assert.rejects(tools.retargetClips(bytes, source, { obeyconstraints: false }), { message: /did you mean obeyConstraints/ });
+  await assert.rejects(tools.retargetClips(bytes, source, { plantsfeet: false }), { message: /did you mean plantsFeet/ });
   await assert.rejects(tools.retargetClips(bytes, source, { clip: 'Wlak' }), { kind: 'edit', message: /Wlak/ });
   for (const wrong of [{ restPoses: 'magic' }, { sameName: 'magic' }, { plantsFeet: 'no' }]) {
     await assert.rejects(tools.retargetClips(bytes, source, { clip: 'Walk', ...wrong }), { kind: 'bad_argument' });

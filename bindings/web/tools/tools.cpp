@@ -299,7 +299,10 @@ Json run_retarget_clips(const Json& request, Made& made) {
     const std::string rest_poses = request.value("restPoses", "measured");
     if (rest_poses != "measured" && rest_poses != "alike") refuse("restPoses must be measured or alike");
     retarget.rest_poses = rest_poses == "alike" ? RestPoses::alike : RestPoses::measured;
-    retarget.obey_constraints = request.value("obeyConstraints", retarget.obey_constraints);
+    const std::string word = request.value("limits", std::string(motion::kLimitsWords.front()));
+    const auto limits = motion::parse_limits(word);
+    if (!limits) refuse("limits must be soft, hard or off");
+    retarget.limits = *limits;
     retarget.plants_feet = request.value("plantsFeet", retarget.plants_feet);
     const MappedFile other = map_bendy(text_of(request, "other"));
     return edited(request, made, [&](Bytes bytes, edit::Log& log) {

@@ -1,9 +1,10 @@
 #include "ik_over_time.h"
 
+#include <bendy/runtime/constrain.h>
+
 #include "ik_carry.h"
 #include "ik_problem.h"
 #include "ik_quick.h"
-#include "limit_chart.h"
 #include "math/rigid_part.h"
 #include "math/rotation.h"
 #include "pose/pose_state.h"
@@ -70,38 +71,14 @@ private:
     double least_ = 1.0;  ///< square of the cosine of half the angle
 };
 
-/// A joint on its way from one legal rotation to another.
-class LegalWay {
-public:
-    LegalWay(IkLink& link, const glm::quat& from, const glm::quat& to) : link_(link), from_(from), to_(to) {
-        has_numbers_ = link.constraint != nullptr && !link.is_fixed && chart_.begin(link);
-        if (!has_numbers_) return;
-        link.local = to_;
-        chart_.read(link);
-        step_ = chart_.values();
-        link.local = from_;
-        chart_.read(link);
-        for (std::size_t i = 0; i < chart_.size(); ++i) {
-            step_[i] -= chart_.values()[i];
-            if (chart_.goes_around(i)) step_[i] = std::remainder(step_[i], 2.0 * trig::kPi);
-        }
-    }
-
-    [[nodiscard]] glm::dquat at(double share) const {
-        if (!has_numbers_) return legal_local(link_, between(glm::normalize(from_), glm::normalize(to_), share));
-        LimitChart chart = chart_;
-        LimitChart::Numbers step = step_;
-        for (double& number : step) number *= share;
-        return chart.move(step);
-    }
-
-private:
-    IkLink& link_;
-    glm::dquat from_, to_;
-    LimitChart chart_;
-    LimitChart::Numbers step_{};
-    bool has_numbers_ = false;
-};
+/// Returns a link's rotation on the way from one to another, inside its limits.
+glm::quat on_the_way(const IkLink& link, const glm::quat& from, const glm::quat& to, double share) {
+    const glm::dquat a = glm::normalize(glm::dquat(from)), b = glm::normalize(glm::dquat(to));
+    if (link.constraint == nullptr) return glm::quat(between(a, b, share));
+    const glm::dquat back = glm::conjugate(link.rest_frame);
+    const glm::dquat R = between_legal(*link.constraint, back * a * link.frame, back * b * link.frame, share);
+    return glm::quat(glm::normalize(link.rest_frame * R * glm::conjugate(link.frame)));
+}
 
 }  // namespace
 
@@ -215,7 +192,7 @@ bool ReachOverTime::approach() {
         LargestTurn turn;
         for (std::size_t i = 0; i < memory_.links.size(); ++i) {
             Link& link = memory_.links[i];
-            link.trial = glm::quat(LegalWay(links[i], link.done, link.wanted).at(share));
+            link.trial = on_the_way(links[i], link.done, link.wanted, share);
             turn.add(glm::dquat(link.done), glm::dquat(link.trial));
         }
         return turn.angle();

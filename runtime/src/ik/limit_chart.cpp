@@ -4,6 +4,7 @@
 #include "math/rotation.h"
 
 #include <bendy/format/trig.h>
+#include <bendy/runtime/constrain.h>
 
 #include <algorithm>
 #include <cmath>
@@ -167,6 +168,27 @@ LimitChart::Edge LimitChart::edge() const {
     const double ny = y / aa, nz = z / bb;
     const double length = std::sqrt(ny * ny + nz * nz);
     return {true, ny / length, nz / length, 1.0 / (aa * bb * length * length * length)};
+}
+
+glm::dquat between_legal(const Constraint& constraint, const glm::dquat& a, const glm::dquat& b, double share) {
+    IkLink link{};
+    link.constraint = &constraint;
+    link.frame = link.rest_frame = glm::dquat(1.0, 0.0, 0.0, 0.0);
+    const auto legal = [&](const glm::dquat& R) { return quick_legal_rotation(constraint, constraint.shape, R); };
+    LimitChart chart;
+    if (!chart.begin(link)) return legal(between(a, b, share));
+    link.local = legal(b);
+    chart.read(link);
+    LimitChart::Numbers step = chart.values();
+    link.local = legal(a);
+    chart.read(link);
+    if (constraint.model() == ConstraintModel::free) return between(a, b, share);
+    for (std::size_t i = 0; i < chart.size(); ++i) {
+        step[i] -= chart.values()[i];
+        if (chart.goes_around(i)) step[i] = std::remainder(step[i], 2.0 * trig::kPi);
+        step[i] *= share;
+    }
+    return chart.move(step);
 }
 
 }  // namespace bendy

@@ -44,7 +44,7 @@ public:
             if (plan_.limbs[k].can_reach) read_limb(plan_.limbs[k], limbs_[k]);
         }
         for (std::size_t k = 0; k < plan_.feet.size() && plan_.options.plants_feet; ++k) plant(k, state, contacts);
-        if (plan_.options.obey_constraints) constrain_all();
+        if (plan_.options.limits != Limits::off) constrain_all();
         lower_hips();
         for (std::size_t k = 0; k < plan_.limbs.size(); ++k) {
             if (plan_.limbs[k].can_reach) finish(plan_.limbs[k], limbs_[k]);
@@ -146,9 +146,22 @@ private:
         (void)constrain(constraint);
     }
 
-    /// Returns the angle by which the joint was outside, radians.
+    /// Returns true if a constraint is only a guess, beyond which a joint may go.
+    [[nodiscard]] bool is_soft(const Constraint& constraint) const {
+        return plan_.options.limits == Limits::soft && (constraint.record.flags & kProposed) != 0;
+    }
+
+    /// Returns the angle by which the joint was turned back, radians.
     double constrain(const Constraint& constraint) {
-        const auto angle = static_cast<float>(constrain_joint(pose_, constraint, Legal::quick));
+        const glm::dquat before(to_.local_of(constraint.joint).rotation);
+        double outside = constrain_joint(pose_, constraint, Legal::quick);
+        if (outside > 0.0 && is_soft(constraint)) {
+            const double kept = 1.0 / (1.0 + outside / kSoftLimit);  // of the angle
+            const glm::dquat legal(to_.local_of(constraint.joint).rotation);
+            to_.set_rotation(constraint.joint, glm::quat(between(legal, glm::normalize(before), kept)));
+            outside *= 1.0 - kept;
+        }
+        const auto angle = static_cast<float>(outside);
         if (angle > result_.turned) {
             result_.turned = angle;
             result_.turned_joint = constraint.joint;
@@ -222,9 +235,19 @@ private:
         return distance;
     }
 
-    /// Returns true if a constraint limits knee or elbow.
+    /// Returns true if solvers obey the limits of a limb: not where all are soft.
+    [[nodiscard]] bool obeys_limits(const LimbPlan& plan) const {
+        if (plan_.options.limits != Limits::soft) return plan_.options.limits == Limits::hard;
+        const std::array joints{plan.upper, plan.lower, plan.end};
+        return std::any_of(joints.begin(), joints.end(), [&](std::uint32_t joint) {
+            const std::uint32_t number = to_.data->ik_constraint(joint);
+            return number != kNone && !is_soft(to_.data->constraints[number]);
+        });
+    }
+
+    /// Returns true if a constraint limits knee or elbow while a solver works.
     [[nodiscard]] bool has_limits(const LimbPlan& plan) const {
-        return plan_.options.obey_constraints && to_.data->ik_constraint(plan.lower) != kNone;
+        return obeys_limits(plan) && to_.data->ik_constraint(plan.lower) != kNone;
     }
 
     /// Returns true if an animal's leg is bent to the wrong side, which wide limits allow.
@@ -269,7 +292,7 @@ private:
         const Chain& chain = plan.chain != nullptr ? *plan.chain : plan.own;
         ReachOptions options;
         options.solver = solver;
-        options.obey_constraints = plan_.options.obey_constraints;
+        options.obey_constraints = obeys_limits(plan);
         // Without a pole the solver keeps the plane in which a limb is bent.
         options.softness = 0.0f;
         options.restarts = 0;
@@ -281,7 +304,7 @@ private:
         place_detached(plan_, to_);
         const glm::dquat space = rigid_rotation(to_.fresh_matrix(plan_.target.parents()[plan.end]));
         to_.set_rotation(plan.end, glm::quat(glm::normalize(glm::conjugate(space) * limb.turn)));
-        if (!plan_.options.obey_constraints) return;
+        if (plan_.options.limits == Limits::off) return;
         for (const std::uint32_t joint : {plan.upper, plan.lower, plan.end}) {
             if (const Constraint* constraint = plan_.target.constraint(joint)) (void)constrain(*constraint);
         }

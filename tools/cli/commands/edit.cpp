@@ -37,7 +37,8 @@ struct EditArguments {
     std::map<std::string, std::vector<std::string>> texts;  // of each option that makes steps, in its order
     std::filesystem::path root;
     std::string same_name = "error";
-    bool ignores_constraints = false, free_feet = false, rests_alike = false;
+    std::string limits = std::string(motion::kLimitsWords.front());
+    bool free_feet = false, rests_alike = false;
     bool in_place = false;
     bool quiet = false;
     bool strict = false, json = false;
@@ -216,7 +217,7 @@ private:
     void add_retarget(const std::string& text) {
         const auto [path, clip] = split_clip(text);
         motion::RetargetClips options{clip, {}, read_same_name()};
-        options.retarget.obey_constraints = !arguments_.ignores_constraints;
+        options.retarget.limits = *motion::parse_limits(arguments_.limits);  // checked
         options.retarget.plants_feet = !arguments_.free_feet;
         if (arguments_.rests_alike) options.retarget.rest_poses = RestPoses::alike;
         add_other("retargeting", path, [options](Bytes file, Bytes other, edit::Log& log) {
@@ -360,9 +361,14 @@ void add_edit(CLI::App& program) {
     add("--influences", "N: at most N influences per vertex, the largest, scaled to the same sum");
     add("--merge", "add the clips of another file (bendy or glTF); tracks go to the joints of the same name");
     add("--retarget",
-        "FILE or FILE:CLIP; put the clips of another character on this one, whatever its build: inside this one's "
-        "constraints, with planted feet");
-    command->add_flag("--ignore-constraints", arguments->ignores_constraints, "of --retarget: go beyond constraints");
+        "FILE or FILE:CLIP; put the clips of another character on this one, whatever its build: as this one's limits "
+        "allow, with planted feet");
+    command
+        ->add_option("--limits", arguments->limits,
+                     "of --retarget: soft, a joint may be up to 15 degrees beyond limits that --auto-rig or another "
+                     "program proposed, not beyond an author's; hard, beyond none; off, limits do not act")
+        ->check(one_of({motion::kLimitsWords.begin(), motion::kLimitsWords.end()}))
+        ->capture_default_str();
     command->add_flag("--free-feet", arguments->free_feet, "of --retarget: do not bring feet to the ground");
     command->add_flag("--rests-alike", arguments->rests_alike,
                       "of --retarget: both characters rest in the same pose, as VRM demands; joints then turn exactly "

@@ -92,14 +92,14 @@ double BoneComparison::angle(const SharedBone& bone, Pose& source, Pose& target)
 
 Cause BoneComparison::find_cause(const SharedBone& bone, Pose& source, Pose& target) {
     if (is_far(bone, source, target, false)) return Cause::rests;
-    return options_.obey_constraints && is_far(bone, source, target, true) ? Cause::limits : Cause::ground;
+    return options_.limits != Limits::off && is_far(bone, source, target, true) ? Cause::limits : Cause::ground;
 }
 
 bool BoneComparison::is_far(const SharedBone& bone, Pose& source, Pose& target, bool obeys_constraints) {
     std::optional<Retarget>& other = without_ground_[obeys_constraints ? 1 : 0];
     if (!other) {
         RetargetOptions options = options_;
-        options.obey_constraints = obeys_constraints;
+        options.limits = obeys_constraints ? options_.limits : Limits::off;
         options.plants_feet = false;
         auto made = Retarget::make(retarget_.source(), retarget_.target(), options);
         if (!made) return false;

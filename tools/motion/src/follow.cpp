@@ -2,6 +2,7 @@
 
 #include "linear_keys.h"
 #include "sample_times.h"
+#include "spread_jumps.h"
 
 #include <bendy/motion/retarget_clips.h>
 #include <bendy/runtime/constrain.h>
@@ -25,6 +26,8 @@ constexpr std::size_t kNumbers = 10;  // of a joint
 constexpr double kStretched = 0.01;   // of a joint's distance from its parent, and of its scale
 constexpr double kUneven = 0.002;     // radians: more samples are made where a joint is farther off halfway between two
 constexpr unsigned kHalvings = 3;     // of the time between two samples
+constexpr float kClosest = 5e-4f;     // seconds
+constexpr float kInstant = 1e-5f;     // seconds, in which a track steps
 constexpr double kOutside = 2e-5;     // radians: more samples are made where a joint is farther outside its limits
 
 bool are_same(const JointTransform& a, const JointTransform& b) {
@@ -46,6 +49,7 @@ struct Sample {
     float seconds = 0.0f;
     Retargeted done;
     Frame frame;
+    Frame source;  ///< of the source
     std::vector<float> weights;
     std::vector<double> off;  ///< by shared bone: radians between its direction and the source's
 };
@@ -89,6 +93,7 @@ public:
         times_ = sample_times(clip_, std::max<std::size_t>(2, kMostNumbers / numbers));
         find_kept();
         if (!play()) return std::nullopt;
+        spread();
         make_tracks(sampled_meshes);
         make_contacts();
         measure();
@@ -132,6 +137,75 @@ private:
         return true;
     }
 
+    /// Slows joints down that jump where the source does not: from one end of their limits to the other, or from one
+    /// side of a straight leg to the other.
+    void spread() {
+        std::vector<std::uint32_t> joints, legs;
+        for (std::uint32_t joint = 0; joint < source_of_.size(); ++joint) {
+            if (source_of_[joint] == kNone) (is_in_leg(joint) ? legs : joints).push_back(joint);
+        }
+        // Between two samples that were changed there is one more, since joints turn quickly there, within limits.
+        std::vector<Frame> all{frames_.front()};
+        std::vector<double> allowed{0.0}, allowed_legs{0.0};
+        for (std::size_t k = 1; k < frames_.size(); ++k) {
+            const bool is_jump = times_[k] - times_[k - 1] < kInstant;  // of the source
+            allowed.insert(allowed.end(), 2, is_jump ? allowed_[k] : 0.5 * allowed_[k]);
+            const double more = options_.limits == Limits::hard ? kHardLegSpeed - kTurnSpeed : 0.0;
+            allowed_legs.insert(allowed_legs.end(), 2, allowed.back() + 0.5 * more * (times_[k] - times_[k - 1]));
+            all.push_back(std::move(between_[k - 1]));
+            all.push_back(std::move(frames_[k]));
+        }
+        const bool repeats = ends_as_it_begins();
+        std::vector<bool> changed = spread_jumps(target_.model(), all, allowed, joints, repeats);
+        const std::vector<bool> changed_legs = spread_jumps(target_.model(), all, allowed_legs, legs, repeats);
+        for (std::size_t k = 0; k < changed.size(); ++k) changed[k] = changed[k] || changed_legs[k];
+        take_frames(std::move(all), changed);
+    }
+
+    [[nodiscard]] bool is_in_leg(std::uint32_t joint) const {
+        const auto roles = target_.model().roles();
+        return std::any_of(roles.begin(), roles.end(), [joint](const JointRole& one) {
+            const auto role = static_cast<Role>(one.role);
+            const bool is_human = role >= Role::left_upper_leg && role <= Role::right_toes;
+            const bool is_animal = role >= Role::left_front_leg && role <= Role::right_hind_leg;
+            return one.joint == joint && (is_human || is_animal);
+        });
+    }
+
+    /// Takes what was made of the samples and of the frames between them: every other frame is a sample, and those
+    /// between become samples where they were changed.
+    void take_frames(std::vector<Frame> all, const std::vector<bool>& changed) {
+        const std::vector<float> times = std::exchange(times_, {});
+        const auto weights = std::exchange(weights_, {});
+        const auto contacts = std::exchange(contacts_, {});
+        frames_.clear();
+        between_.clear();
+        for (std::size_t k = 0; k < times.size(); ++k) {
+            if (k > 0) {
+                Frame& between = all[2 * k - 1];
+                const float half = 0.5f * (times[k - 1] + times[k]);
+                const bool is_sample = changed[2 * k - 1] && half > times[k - 1] && half < times[k];
+                if (is_sample) {
+                    times_.push_back(half);
+                    frames_.push_back(std::move(between));
+                    weights_.push_back(weights[k - 1]);
+                    for (std::size_t w = 0; w < weights[k].size(); ++w)
+                        weights_.back()[w] += 0.5f * (weights[k][w] - weights[k - 1][w]);
+                    contacts_.push_back(contacts[k - 1]);
+                    for (std::size_t c = 0; c < kContacts; ++c)
+                        contacts_.back()[c] += 0.5f * (contacts[k][c] - contacts[k - 1][c]);
+                    between_.insert(between_.end(), 2, {});
+                } else {
+                    between_.push_back(changed[2 * k - 2] || changed[2 * k] ? Frame() : std::move(between));
+                }
+            }
+            times_.push_back(times[k]);
+            frames_.push_back(std::move(all[2 * k]));
+            weights_.push_back(weights[k]);
+            contacts_.push_back(contacts[k]);
+        }
+    }
+
     /// Goes on from the last sample to another time.
     bool advance(float time, RetargetState& state) {
         struct Next {
@@ -147,7 +221,9 @@ private:
             if (!end) return false;
             const bool has_room = half > from && half < to && times_.size() < most_;
             const unsigned halvings = next.back().halvings;
-            if (has_room && ((halvings > 0 && !is_even(*between, *end)) || leaves_limits(*between, *end))) {
+            const bool is_rough =
+                (halvings > 0 && !is_even(*between, *end)) || (to - from > kClosest && leaves_limits(*between, *end));
+            if (has_room && is_rough) {
                 next.back().halvings = halvings > 0 ? halvings - 1 : 0;
                 next.push_back({half, next.back().halvings});
                 continue;
@@ -171,9 +247,9 @@ private:
     }
 
     /// Returns true if what lies halfway from the last sample to another one violates a constraint, and Retarget does
-    /// not. A joint that jumps from one end of its range to the other does, however near the samples are.
+    /// not.
     [[nodiscard]] bool leaves_limits(const Sample& between, const Sample& end) const {
-        if (!options_.obey_constraints) return false;
+        if (options_.limits == Limits::off) return false;
         const Model& model = target_.model();
         return std::any_of(model.constraints().begin(), model.constraints().end(), [&](const Constraint& limit) {
             if (model.constraint(limit.joint) != &limit || source_of_[limit.joint] != kNone) return false;
@@ -260,11 +336,11 @@ private:
     std::optional<Sample> sample_at(float seconds, RetargetState& state) {
         const auto done = step(seconds, state);
         if (!done) return std::nullopt;
-        Sample sample{seconds, *done, frame_of(target_), {}, {}};
+        Sample sample{seconds, *done, frame_of(target_), frame_of(source_), {}, {}};
         for (const SharedBone& bone : comparison_.bones())
             sample.off.push_back(comparison_.angle(bone, source_, target_));
         sample.weights.assign(target_.morph_weights().begin(), target_.morph_weights().end());
-        note_source(sample.frame);
+        note_source(sample);
         note_kept(sample.frame);
         return sample;
     }
@@ -272,10 +348,23 @@ private:
     void record(Sample sample) {
         note(sample.done, sample.seconds);
         note_off(sample);
+        allowed_.push_back(allowed_since_last(sample));
+        last_source_ = std::move(sample.source);
         times_.push_back(sample.seconds);
         frames_.push_back(std::move(sample.frame));
         weights_.push_back(std::move(sample.weights));
         contacts_.push_back(sample.done.contacts);
+    }
+
+    /// Radians by which a joint may turn since the last sample.
+    [[nodiscard]] double allowed_since_last(const Sample& sample) const {
+        if (times_.empty()) return 0.0;
+        double turned = 0.0;
+        for (std::size_t joint = 0; joint < sample.source.size(); ++joint) {
+            const glm::quat by = glm::conjugate(last_source_[joint].rotation) * sample.source[joint].rotation;
+            turned = std::max(turned, 2.0 * std::asin(std::min(1.0, double{glm::length(glm::vec3(by.x, by.y, by.z))})));
+        }
+        return kTurnSpeed * (double{sample.seconds} - times_.back()) + kOfSource * turned;
     }
 
     void note(const Retargeted& done, float seconds) {
@@ -316,8 +405,8 @@ private:
         if (!bones.empty()) result_.mean_off = sum_off_ / static_cast<double>(bones.size() * times_.size());
     }
 
-    void note_source(const Frame& frame) {
-        const Frame now = frame_of(source_);
+    void note_source(const Sample& sample) {
+        const Frame &now = sample.source, &frame = sample.frame;
         if (first_.empty()) first_ = now;
         for (std::uint32_t joint = 0; joint < now.size(); ++joint) {
             if (!are_same(now[joint], first_[joint])) result_.moves[joint] = true;
@@ -346,7 +435,7 @@ private:
 
     void make_tracks(const std::vector<std::uint32_t>& sampled_meshes) {
         const auto joints = target_.model().joints();
-        const bool is_free = !options_.obey_constraints && !options_.plants_feet;
+        const bool is_free = options_.limits == Limits::off && !options_.plants_feet;
         const double turned = is_free ? kMostTurnedFree : kMostTurned;
         const double moved = kMostMoved * double{retarget_.leg()};
         target_.set_rest();
@@ -435,7 +524,8 @@ private:
         Pose made(target_.model());
         for (std::size_t k = 0; k < frames_.size(); ++k) {
             compare(made, times_[k], frames_[k]);
-            if (k < between_.size()) compare(made, 0.5f * (times_[k] + times_[k + 1]), between_[k]);
+            if (k < between_.size() && !between_[k].empty())
+                compare(made, 0.5f * (times_[k] + times_[k + 1]), between_[k]);
         }
     }
 
@@ -483,11 +573,12 @@ private:
     Pose source_, target_;
     std::array<const Curve*, kContacts> curves_;
     std::vector<float> times_;
-    std::size_t most_ = 0;  // samples
-    std::vector<Frame> frames_, between_;
-    Frame first_;                        // of the source
-    std::vector<FarthestOff> farthest_;  // by shared bone
-    double sum_off_ = 0.0;               // radians, of all bones in all frames
+    std::size_t most_ = 0;                 // samples
+    std::vector<Frame> frames_, between_;  // between: empty where that is not compared
+    std::vector<double> allowed_;          // radians, by frame: see spread_jumps
+    Frame first_, last_source_;            // of the source
+    std::vector<FarthestOff> farthest_;    // by shared bone
+    double sum_off_ = 0.0;                 // radians, of all bones in all frames
     std::vector<std::vector<float>> weights_;
     std::vector<ContactWeights> contacts_;
     std::pair<std::vector<float>, std::vector<ContactWeights>> weights_over_time_;  // found by find_contacts

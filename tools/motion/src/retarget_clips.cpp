@@ -265,7 +265,7 @@ private:
                     " off the source's on average, " + degrees(followed.farthest_off.angle) + " at " +
                     name_of(followed.farthest_off.joint) + with(" at %.3g s", followed.farthest_off.seconds);
         }
-        if (followed.limited == 0 && options_.retarget.obey_constraints) text += "; no limit acted";
+        if (followed.limited == 0 && options_.retarget.limits != Limits::off) text += "; no limit acted";
         if (followed.limited != 0) text += limits_text(followed);
         if (followed.missed > 1e-4) {
             text += "; " + name_of(followed.missed_joint) + " misses its place by " + millimetres(followed.missed) +
@@ -313,14 +313,14 @@ private:
              "one of the bodies does not stand in its rest pose, or is built differently: --stand says how it stands, "
              "--rests-alike takes turns from rest");
         tell(doubts_[static_cast<std::size_t>(Cause::limits)], "limits turn bones" + most, degrees,
-             "--ignore-constraints goes beyond them");
+             "--limits off goes beyond them");
         tell(doubts_[static_cast<std::size_t>(Cause::ground)], "feet on the ground turn legs" + most, degrees,
              "--free-feet lets them go");
         const double leg = retarget_.leg();
         const auto of_leg = [leg](double metres) {
             return millimetres(metres) + with(", %.0f %% of the leg,", 100.0 * metres / leg);
         };
-        tell(missed_, "feet or hands miss their places in ", of_leg, "try --ignore-constraints or --free-feet");
+        tell(missed_, "feet or hands miss their places in ", of_leg, "try --limits off or --free-feet");
         tell(lowered_, "the hips are lowered, so that feet reach the ground, in ", of_leg, "--free-feet leaves them");
     }
 
@@ -419,6 +419,12 @@ private:
 };
 
 }  // namespace
+
+std::optional<Limits> parse_limits(std::string_view word) {
+    const auto found = std::find(kLimitsWords.begin(), kLimitsWords.end(), word);
+    if (found == kLimitsWords.end()) return std::nullopt;
+    return static_cast<Limits>(found - kLimitsWords.begin());
+}
 
 edit::Edited retarget_clips(Bytes file, Bytes other, const RetargetClips& options, Log& log) {
     const auto source = open_model(other, true, "the source");

@@ -63,7 +63,7 @@ async function edited(request: object, inputs: Inputs): Promise<Edited> {
 const convertOptions: readonly string[] = programOptions.filter((name) => name !== 'maxError' && name !== 'root');
 const convertAdvice = { maxError: "compact: '1mm'", 'max-error': "compact: '1mm'" };
 const retargetOptions = optionNames<RetargetClipsOptions>({
-  clip: true, sameName: true, restPoses: true, obeyConstraints: true, plantsFeet: true,
+  clip: true, sameName: true, restPoses: true, limits: true, plantsFeet: true,
 });
 const dumpOptions = optionNames<DumpOptions>({ decode: true, ignoreSums: true });
 const exportOptions = optionNames<ExportOptions>({ lod: true, name: true });

@@ -24,6 +24,15 @@ namespace BENDY_PUBLIC bendy {
                                              const glm::quat& local);
 [[nodiscard]] glm::quat from_constraint_space(const Constraint& constraint, const glm::quat& rest, const glm::dquat& R);
 
+/// Returns the rotation at a fraction of the way between two that are inside the limits. The way stays inside: it does
+/// not follow the shorter arc, which may lead through what is forbidden, but the numbers that the limits are about
+/// (angles, twist, tangents of half a swing). Of constraints for which these do not describe the limits (a largest
+/// angle, a soft zone, an ellipse of half a turn or more), the shorter arc is taken and clamped.
+/// \param a, b   unit quaternions, R of Constraint; moved inside first
+/// \param share  0 to 1
+[[nodiscard]] glm::dquat between_legal(const Constraint& constraint, const glm::dquat& a, const glm::dquat& b,
+                                       double share);
+
 /// Clamps a joint's translation to the constraint, metres: each component of d to its range, where translation =
 /// rest.translation + rest.rotation * C * d.
 [[nodiscard]] glm::vec3 clamp_translation(const Constraint& constraint, const JointTransform& rest,

@@ -12,6 +12,12 @@
 #include <cstdint>
 #include <vector>
 
+namespace bendy {
+
+struct ReachMemory;  // internal
+
+}  // namespace bendy
+
 namespace BENDY_PUBLIC bendy {
 
 /// What the chains of one character did last: with it (ReachOptions::state), chains that reach in frame after frame do

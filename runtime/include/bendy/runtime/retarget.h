@@ -37,9 +37,19 @@ enum class RestPoses : std::uint8_t {
     alike,
 };
 
+/// How the target's constraints act.
+enum class Limits : std::uint8_t {
+    /// Those that no author gave but a program proposed are soft: a joint that is to be e beyond one is
+    /// e / (1 + e / kSoftLimit) beyond it. All others are hard.
+    soft,
+    hard,  ///< no joint is beyond its constraint
+    off,   ///< none acts
+};
+inline constexpr double kSoftLimit = 0.2617993877991494;  ///< radians: 15 degrees, most that a joint is beyond
+
 struct RetargetOptions {
     RestPoses rest_poses = RestPoses::measured;
-    bool obey_constraints = true;  ///< of the target
+    Limits limits = Limits::soft;
     /// Moves the feet, while they touch the ground, as far as the source's feet move, times the length of the legs. Has
     /// no effect on legs with joints between hip, knee and ankle that have no IK chain.
     bool plants_feet = true;

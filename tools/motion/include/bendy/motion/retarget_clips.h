@@ -4,10 +4,18 @@
 #include <bendy/format/byte_reader.h>
 #include <bendy/runtime/retarget.h>
 
+#include <array>
+#include <optional>
 #include <string>
+#include <string_view>
 
 // Clips of one character on another one, from file to file.
 namespace bendy::motion {
+
+/// Their words for users, by number.
+inline constexpr std::array<std::string_view, 3> kLimitsWords{"soft", "hard", "off"};
+/// Returns nothing for any other word.
+std::optional<Limits> parse_limits(std::string_view word);
 
 struct RetargetClips {
     std::string clip{};  ///< which of the other file's clips: see edit::find_named; empty: all of them
@@ -21,7 +29,9 @@ struct RetargetClips {
 /// Joints whose numbers are the source's in every frame keep its tracks, byte for byte; the others have linear tracks
 /// with as few keys as keep every rotation within kMostTurned (or kMostTurnedFree) and every translation within
 /// kMostMoved of the legs' length. How far joints are from where Retarget has them, also between the keys, is measured
-/// and reported.
+/// and reported. A joint that would jump where the source does not, from one end of its limits to the other or from one
+/// side of a straight leg to the other, begins to turn before and ends after, at kTurnSpeed beyond kOfSource times the
+/// source's largest turn.
 ///
 /// The result is measured against the source, too: the angles between the directions of bones that both bodies have.
 /// Warnings name the worst that point elsewhere by more than kFarOfLimb or kFarOfOthers, why they do, and what changes
@@ -38,8 +48,11 @@ edit::Edited retarget_clips(Bytes file, Bytes other, const RetargetClips& option
 
 inline constexpr double kMostTurned = 0.00004;  ///< radians
 inline constexpr double kMostTurnedFree =
-    0.000004;                                 ///< without limits and planted feet, where keys of the source are exact
-inline constexpr double kMostMoved = 0.0001;  ///< of the length of the legs
+    0.000004;                                  ///< without limits and planted feet, where keys of the source are exact
+inline constexpr double kMostMoved = 0.0001;   ///< of the length of the legs
+inline constexpr double kTurnSpeed = 8.0;      ///< radians a second
+inline constexpr double kHardLegSpeed = 16.0;  ///< the same of legs under hard limits, whose feet stand
+inline constexpr double kOfSource = 1.5;
 inline constexpr double kMostWeight = 0.002;  ///< of a morph target, of a contact, of a scale
 
 /// A warning names what is farther off than this. Limbs take the source's directions, while trunks, necks, collarbones
