@@ -71,13 +71,17 @@ private:
     double least_ = 1.0;  ///< square of the cosine of half the angle
 };
 
+glm::quat to_floats(const glm::dquat& q) {
+    return {static_cast<float>(q.w), static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)};
+}
+
 /// Returns a link's rotation on the way from one to another, inside its limits.
 glm::quat on_the_way(const IkLink& link, const glm::quat& from, const glm::quat& to, double share) {
     const glm::dquat a = glm::normalize(glm::dquat(from)), b = glm::normalize(glm::dquat(to));
-    if (link.constraint == nullptr) return glm::quat(between(a, b, share));
+    if (link.constraint == nullptr) return to_floats(between(a, b, share));
     const glm::dquat back = glm::conjugate(link.rest_frame);
     const glm::dquat R = between_legal(*link.constraint, back * a * link.frame, back * b * link.frame, share);
-    return glm::quat(glm::normalize(link.rest_frame * R * glm::conjugate(link.frame)));
+    return to_floats(glm::normalize(link.rest_frame * R * glm::conjugate(link.frame)));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct ReachMemory {
     using Link = ReachState::Link;
 
     /// Nothing without a state, or if the solver itself takes several frames.
-    ReachMemory(const Chain& chain, const ReachOptions& options);
+    ReachMemory(const Chain& of, const ReachOptions& options);
 
     ReachState::ChainMemory* chain = nullptr;
     std::span<Link> links;

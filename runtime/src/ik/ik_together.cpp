@@ -135,20 +135,20 @@ Result<void, CallError> reach(Pose& pose, std::span<const ReachRequest> requests
     return together.outcome();
 }
 
-void reach_all(Pose& pose, ReachState* reached, float seconds) {
+void reach_all(Pose& pose, ReachState* state, float seconds) {
     const Model& model = pose.model();
-    PoseState& state = PoseState::of(pose);
+    PoseState& pose_state = PoseState::of(pose);
     Together together(pose, {});
-    if (reached != nullptr && !(reached->model() == model)) reached = nullptr;
+    if (state != nullptr && !(state->model() == model)) state = nullptr;
     for (const std::uint32_t number : model.chain_order()) {
         const Chain& chain = model.chains()[number];
         if (chain.record.target == kNone || !(chain.record.influence > 0.0f)) continue;
         if (together.will_move(chain.record.target)) together.solve();
-        const glm::dmat4 followed = state.fresh_matrix(chain.record.target);
+        const glm::dmat4 followed = pose_state.fresh_matrix(chain.record.target);
         ReachRequest request{&chain, glm::vec3(followed[3]), {}};
         if (chain.record.rotation_weight > 0.0f) request.target.rotation = glm::quat(rigid_rotation(followed));
         request.options.influence = chain.record.influence;
-        request.options.state = reached;
+        request.options.state = state;
         request.options.seconds = seconds;
         request.options.carry_target = false;  // what the chain follows is its goal
         together.add(request, number);
