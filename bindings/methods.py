@@ -70,7 +70,7 @@ def documentation(function):
 
 
 def takes(one, api):
-    return (one.type.name in api.handles or bool(one.length) or
+    return (one.type.name == "bendy_pose" or one.type.name in api.handles and one.may_be_null or bool(one.length) or
             not one.type.is_pointer and not one.count and (one.type.name in ("float", "double") or bool(one.enum) or one.name in PARTS))
 
 

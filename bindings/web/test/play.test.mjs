@@ -180,7 +180,7 @@ test('retargeting says that there are no roles, and refuses poses of other model
   assert.throws(() => new Retarget(source, bare), isMissing);
   assert.throws(() => new Retarget(source, Model.openSync(mannequin, { runtime: plain })), { code: 'BAD_ARGUMENT' });
   assert.throws(() => new Retarget(source, source, { restPoses: 'other' }), { code: 'BAD_ARGUMENT' });
-  const retarget = new Retarget(source, source, { restPoses: 'alike', obeyConstraints: false, plantsFeet: false });
+  const retarget = new Retarget(source, source, { restPoses: 'alike', limits: 'off', plantsFeet: false });
   const [pose, other, state] = [source.pose(), source.sample('Walk', 0.3), new RetargetState(simd)];
   retarget.apply(pose, other, state);
   for (const wrong of [
