@@ -204,7 +204,7 @@ TEST_F(CArguments, StructsOfOtherVersionsAreTakenAsFarAsBothKnowThem) {
 
     struct NewerOptions {
         bendy_reach_options now = BENDY_REACH_OPTIONS_INIT;
-        std::uint32_t added = 0;
+        std::uint64_t added = 0;  // without padding after it, which could hold anything
     } options;
     options.now.size = sizeof options;
     EXPECT_EQ(bendy_reach(pose_.get(), 0, target.data(), nullptr, &options.now, nullptr, &error_), BENDY_OK);
