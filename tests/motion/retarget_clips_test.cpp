@@ -513,6 +513,12 @@ TEST(RetargetClips, ThePageSaysWhatIsFarFromTheSource) {
                         " degrees elsewhere than the source's, other bones more than " + whole(kFarOfOthers) + ":"),
               std::string::npos);
     EXPECT_NE(page.find("by more than " + whole(100.0 * kFarMiss) + " % of the legs' length."), std::string::npos);
+    EXPECT_NE(page.find("by at most " + whole(kTurnSpeed) + " radians a second (legs under hard limits: " +
+                        whole(kHardLegSpeed) + ") beyond " + whole(10.0 * kOfSource).insert(1, ".") + " times"),
+              std::string::npos);
+    const std::string most = whole(glm::degrees(kSoftLimit));
+    EXPECT_NE(page.find("up to " + most + " degrees beyond limits"), std::string::npos);
+    EXPECT_NE(page.find("e / (1 + e / " + most + ")"), std::string::npos);
 }
 
 TEST(RetargetClips, ClipsWithoutACounterpartAreLeftOut) {
