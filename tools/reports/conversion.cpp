@@ -113,12 +113,12 @@ converter::ConvertOptions options_of(const ConvertArguments& arguments) {
     options.drop_unused = arguments.drop_unused;
     options.lod = arguments.lod;
     options.keep_order = arguments.keep_order;
-    options.threads = jobs_of(arguments);
+    options.threads = jobs_of(arguments.jobs);
     return options;
 }
 
-unsigned jobs_of(const ConvertArguments& arguments) {
-    return std::max(arguments.jobs != 0 ? arguments.jobs : std::thread::hardware_concurrency(), 1u);
+unsigned jobs_of(unsigned asked) {
+    return std::max(asked != 0 ? asked : std::thread::hardware_concurrency(), 1u);
 }
 
 std::string recipe_of(const ConvertArguments& arguments) {

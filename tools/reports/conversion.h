@@ -30,8 +30,8 @@ struct ConvertArguments : ConvertChoices {
 /// Returns the options for converting a single file, with as many threads as there are jobs.
 converter::ConvertOptions options_of(const ConvertArguments& arguments);
 
-/// Returns the requested number, or the number of processors; at least 1.
-unsigned jobs_of(const ConvertArguments& arguments);
+/// Returns how many threads to use: as many as asked for, or as there are processors for 0; at least 1.
+unsigned jobs_of(unsigned asked);
 
 /// Returns everything that determines the output's bytes, including the program's version, as one line of text.
 std::string recipe_of(const ConvertArguments& arguments);

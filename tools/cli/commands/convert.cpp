@@ -169,12 +169,10 @@ void convert_file(const ConvertArguments& arguments, NamedBy named) {
 }
 
 /// Fails if one run cannot do what is asked of standard input, standard output and the names.
-void check_names(const ConvertArguments& arguments, bool is_batch) {
-    const bool has_dash = std::any_of(arguments.inputs.begin(), arguments.inputs.end(), is_dash);
-    if (is_batch && (has_dash || is_dash(arguments.rig)))
-        throw CLI::ValidationError("-", "standard input must be the only input, and cannot go to a folder");
-    if (is_batch && is_dash(arguments.output))
-        throw CLI::ValidationError("--output", "several files cannot go to standard output: give a folder");
+void check_names(const ConvertArguments& arguments, bool is_many) {
+    if (is_many && is_dash(arguments.rig))
+        throw CLI::ValidationError("--rig", "goes to standard input only with one input");
+    if (is_many) check_batch(arguments.inputs, arguments.output);
     const bool takes_output = is_dash(arguments.output) || is_dash(arguments.depfile);
     if (arguments.json && takes_output)
         throw CLI::ValidationError("--json", "goes to standard output, and so does a file: give that a name");
@@ -184,29 +182,16 @@ void check_names(const ConvertArguments& arguments, bool is_batch) {
         throw CLI::ValidationError("--depfile", escaped(arguments.depfile.string()) + " would be " +
                                                     std::string(format) + ", not a rule for Make");
     }
-    std::error_code ignored;
-    if (const auto format = format_named_by(arguments.output);
-        is_batch && !format.empty() && !std::filesystem::is_directory(arguments.output, ignored)) {
-        const std::string name = escaped(arguments.output.string());
-        throw CLI::ValidationError("--output", "several files go to a folder, and " + name + " would be " +
-                                                   std::string(format) + "; " + name + "/ is a folder");
-    }
 }
 
 void run(ConvertArguments arguments) {
     const std::filesystem::path& input = arguments.inputs.front();
-    std::error_code ignored;
-    const bool has_folder =
-        std::any_of(arguments.inputs.begin(), arguments.inputs.end(),
-                    [&](const std::filesystem::path& path) { return std::filesystem::is_directory(path, ignored); });
     const NamedBy named = arguments.output.empty() ? NamedBy::program : NamedBy::user;
-    const bool is_batch = has_folder || arguments.inputs.size() > 1 ||
-                          (!arguments.output.empty() && (!arguments.output.has_filename() ||
-                                                         std::filesystem::is_directory(arguments.output, ignored)));
-    if (arguments.output.empty() && !is_batch)
+    const bool is_many = is_batch(arguments.inputs, arguments.output);
+    if (arguments.output.empty() && !is_many)
         arguments.output = is_dash(input) ? input : std::filesystem::path(input).replace_extension(".bendy");
-    check_names(arguments, is_batch);
-    if (!is_batch) return convert_file(arguments, named);
+    check_names(arguments, is_many);
+    if (!is_many) return convert_file(arguments, named);
     if (!arguments.depfile.empty())
         throw CLI::ValidationError("--depfile", "goes with one input and the file that it becomes, not with a folder");
     convert_batch(arguments);

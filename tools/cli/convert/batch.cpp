@@ -1,96 +1,18 @@
 #include "convert/batch.h"
 
-#include "files/output.h"
 #include "reports/json.h"
 #include "reports/messages.h"
 
-#include <bendy/converter/source_format.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/file.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <set>
-#include <system_error>
-#include <utility>
 
 namespace bendy::tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Returns one path for one file, however the path was written.
-fs::path plain(const fs::path& path) {
-    std::error_code unknown;
-    fs::path canonical = fs::weakly_canonical(path, unknown);
-    return unknown ? fs::absolute(path).lexically_normal() : canonical;
-}
-
-class Planner {
-public:
-    explicit Planner(fs::path folder) : folder_(std::move(folder)) {}
-
-    void add(const fs::path& input) {
-        std::error_code ignored;
-        if (fs::is_directory(input, ignored)) {
-            add_folder(input);
-        } else {
-            add_file(input, folder_.empty() ? input.parent_path() : folder_, input.filename());
-        }
-    }
-
-    BatchPlan finish() {
-        std::set<fs::path> folders;
-        for (const auto& [key, file] : files_) {
-            if (const std::string problem = outputs_.claim(file.output, NamedBy::user); !problem.empty())
-                plan_.clashes.push_back({file.input, file.output, problem});
-            folders.insert(file.folder);
-            plan_.files.push_back(file);
-        }
-        for (const fs::path& folder : folders) {
-            const fs::path record = BatchRecord::file_in(folder);
-            if (const std::string problem = outputs_.claim(record, NamedBy::user); !problem.empty())
-                plan_.clashes.push_back({{}, record, problem});
-        }
-        return std::move(plan_);
-    }
-
-    void reads(const fs::path& file) { outputs_.reads(file); }
-
-private:
-    void add_folder(const fs::path& folder) {
-        const std::size_t before = files_.size();
-        std::error_code error;
-        fs::recursive_directory_iterator entry(folder, error);
-        for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-            std::error_code ignored;
-            if (converter::has_readable_suffix(entry->path()) && !entry->is_directory(ignored))
-                add_file(entry->path(), folder_.empty() ? folder : folder_, entry->path().lexically_relative(folder));
-        }
-        if (error) {
-            plan_.unread.push_back({folder, {}, "cannot be read to its end: " + error.message()});
-        } else if (files_.size() == before) {
-            warn(folder, "has no file to convert (" + converter::list_readable_suffixes() + ')');
-        }
-    }
-
-    void add_file(const fs::path& input, const fs::path& folder, fs::path place) {
-        place.replace_extension(".bendy");
-        const fs::path output = folder / place;
-        const auto [earlier, is_new] = files_.try_emplace(plain(output), BatchFile{input, folder, place, output});
-        if (!is_new && plain(earlier->second.input) != plain(input)) {
-            plan_.clashes.push_back({input, output,
-                                     "both " + escaped(earlier->second.input.string()) + " and " +
-                                         escaped(input.string()) + " would be written there"});
-        }
-        outputs_.reads(input);
-    }
-
-    fs::path folder_;
-    std::map<fs::path, BatchFile> files_;  // by normalised output
-    Outputs outputs_;
-    BatchPlan plan_;
-};
 
 using converter::FileStamp;
 using converter::SourceFile;
@@ -114,23 +36,12 @@ FileStamp as_stamp(const Json& numbers) {
 
 }  // namespace
 
-BatchPlan plan_batch(const std::vector<fs::path>& inputs, const fs::path& folder, const fs::path& rig) {
-    Planner planner(folder);
-    for (const fs::path& input : inputs) planner.add(input);
-    if (!rig.empty()) planner.reads(rig);
-    return planner.finish();
-}
-
-BatchRecord::BatchRecord(const fs::path& folder) : folder_(folder), file_(file_in(folder)) {
+BatchRecord::BatchRecord(const fs::path& folder) : folder_(folder), file_(folder / kName) {
     try {
         read();
     } catch (const JsonError&) {
         entries_.clear();  // damaged, or of another version: everything is converted again
     }
-}
-
-fs::path BatchRecord::file_in(const fs::path& folder) {
-    return folder / ".bendy_batch.json";
 }
 
 bool BatchRecord::knows(const BatchFile& file) const {

@@ -324,6 +324,11 @@ std::ostream& print_size(const fs::path& output, std::uint64_t bytes) {
     return summary_stream(output) << escaped(output_name(output)) << ": " << grouped(bytes) << " bytes";
 }
 
+std::string change_of_size(std::uint64_t before, std::uint64_t after) {
+    if (after == before) return {};
+    return ", " + grouped(after < before ? before - after : after - before) + (after < before ? " less" : " more");
+}
+
 void require_folder_of(const fs::path& output) {
     const fs::path folder = output.parent_path();
     if (folder.empty()) return;

@@ -92,6 +92,8 @@ std::string output_name(const std::filesystem::path& output);
 std::ostream& summary_stream(const std::filesystem::path& output);
 /// Prints "fox.bendy: 1,234 bytes" to that stream.
 std::ostream& print_size(const std::filesystem::path& output, std::uint64_t bytes);
+/// ", 1,234 less", or more; empty if nothing has changed.
+std::string change_of_size(std::uint64_t before, std::uint64_t after);
 
 /// Fails, naming the folder, if an output's folder does not exist: before the work rather than after it.
 void require_folder_of(const std::filesystem::path& output);

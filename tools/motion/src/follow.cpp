@@ -3,6 +3,7 @@
 #include "linear_keys.h"
 #include "sample_times.h"
 #include "spread_jumps.h"
+#include "turn.h"
 
 #include <bendy/motion/retarget_clips.h>
 #include <bendy/runtime/constrain.h>
@@ -97,6 +98,7 @@ public:
         make_tracks(sampled_meshes);
         make_contacts();
         measure();
+        result_.pops = find_pops(source_.model(), clip_, result_.tracks, times_);
         compare_with_source();
         return std::move(result_);
     }
@@ -361,8 +363,7 @@ private:
         if (times_.empty()) return 0.0;
         double turned = 0.0;
         for (std::size_t joint = 0; joint < sample.source.size(); ++joint) {
-            const glm::quat by = glm::conjugate(last_source_[joint].rotation) * sample.source[joint].rotation;
-            turned = std::max(turned, 2.0 * std::asin(std::min(1.0, double{glm::length(glm::vec3(by.x, by.y, by.z))})));
+            turned = std::max(turned, turn_between(last_source_[joint].rotation, sample.source[joint].rotation));
         }
         return kTurnSpeed * (double{sample.seconds} - times_.back()) + kOfSource * turned;
     }
@@ -550,15 +551,8 @@ private:
     }
 
     void set_from(Pose& pose, const UnpackedTrack& track, float seconds) const {
-        TrackView view;
-        view.path = track.path;
-        view.target = track.joint;
-        view.components = track.components;
-        view.keys = static_cast<std::uint32_t>(track.times.size());
-        view.times = track.times;
-        view.values = track.values;
         std::array<float, 4> value{};
-        sample_track(view, clip_, seconds, value);
+        sample_track(view_of(track), clip_, seconds, value);
         JointTransform local = pose.local(track.joint);
         if (track.path == TrackPath::rotation) local.rotation = glm::quat(value[3], value[0], value[1], value[2]);
         if (track.path == TrackPath::translation) local.translation = {value[0], value[1], value[2]};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bone_comparison.h"
+#include "pops.h"
 
 #include <bendy/format/packed_clip.h>
 #include <bendy/runtime/model.h>
@@ -53,7 +54,8 @@ struct Followed {
     float error_at = 0.0f;  ///< seconds
     /// Against the source: between directions of bones that both bodies have, all of them, at the frames.
     FarthestOff farthest_off;
-    double mean_off = 0.0;                       ///< radians
+    double mean_off = 0.0;  ///< radians
+    std::vector<JointPop> pops;
     std::array<FarthestOff, kCauses> far_off{};  ///< by Cause: bones that are farther off than SharedBone::far
 };
 

@@ -118,6 +118,8 @@ public:
         pair_weights();
     }
 
+    [[nodiscard]] std::vector<RetargetedClip> take_numbers() { return std::move(numbers_); }
+
     Result<Transfer, Problem> run(const std::vector<std::size_t>& clips) {
         std::vector<std::size_t> useless;
         for (const std::size_t number : clips) {
@@ -224,6 +226,7 @@ private:
         Transfer::Clip& clip = transfer_.clips.emplace_back();
         clip.number = number;
         clip.report = report(followed);
+        numbers_.push_back(numbers_of(number, followed));
         clip.kept = std::move(followed.kept);
         clip.tracks = std::move(followed.tracks);
         for (const ContactCurve& contact : followed.contacts) {
@@ -249,6 +252,23 @@ private:
     }
 
     [[nodiscard]] std::string name_of(std::uint32_t joint) const { return quoted(target_.joints()[joint].name, joint); }
+
+    [[nodiscard]] RetargetedClip numbers_of(std::size_t number, const Followed& followed) const {
+        const auto at = [&](std::uint32_t joint, float seconds, double amount) {
+            return joint == kNone ? Worst() : Worst{std::string(target_.joints()[joint].name), seconds, amount};
+        };
+        const FarthestOff& off = followed.farthest_off;
+        RetargetedClip clip{std::string(source_.clips()[number].name), followed.frames, followed.limited};
+        clip.mean_off = followed.mean_off;
+        clip.off = at(off.joint, off.seconds, off.angle);
+        clip.missed = at(followed.missed_joint, followed.missed_at, followed.missed);
+        clip.lowered = followed.lowered;
+        clip.mean_error = followed.mean_error;
+        clip.error = followed.error;
+        for (const JointPop& pop : followed.pops)
+            clip.pops.push_back({at(pop.joint, pop.seconds, pop.turn), pop.of_source});
+        return clip;
+    }
 
     /// What had to give way.
     [[nodiscard]] std::string report(const Followed& followed) const {
@@ -305,6 +325,11 @@ private:
         const double far = kFarMiss * double{retarget_.leg()};
         if (followed.missed > far) missed_.add(followed.missed_joint, clip, followed.missed, followed.missed_at);
         if (followed.lowered > far) lowered_.add(kNone, clip, followed.lowered, 0.0f);
+        const auto most = std::max_element(followed.pops.begin(), followed.pops.end(),
+                                           [](const JointPop& a, const JointPop& b) { return a.turn < b.turn; });
+        if (most == followed.pops.end()) return;
+        if (most->turn > popped_.most) most_of_source_ = most->of_source;
+        popped_.add(most->joint, clip, most->turn, most->seconds);
     }
 
     void warn_of_doubts() {
@@ -321,6 +346,11 @@ private:
             return millimetres(metres) + with(", %.0f %% of the leg,", 100.0 * metres / leg);
         };
         tell(missed_, "feet or hands miss their places in ", of_leg, "try --limits off or --free-feet");
+        tell(
+            popped_, "joints turn in jumps in ",
+            [this](double turn) { return degrees(turn) + " (the source: " + degrees(most_of_source_) + " at most)"; },
+            options_.retarget.limits == Limits::off ? "--free-feet lets the legs go"
+                                                    : "try --limits soft, --limits off or --free-feet");
         tell(lowered_, "the hips are lowered, so that feet reach the ground, in ", of_leg, "--free-feet leaves them");
     }
 
@@ -415,7 +445,9 @@ private:
     std::vector<std::uint32_t> sampled_;  // meshes of the target
     std::vector<bool> has_role_, lost_, stretched_;
     std::array<Doubt, kCauses> doubts_;
-    Doubt missed_, lowered_;
+    Doubt missed_, lowered_, popped_;
+    double most_of_source_ = 0.0;  // where a joint pops most: what the source turns
+    std::vector<RetargetedClip> numbers_;
 };
 
 }  // namespace
@@ -426,7 +458,8 @@ std::optional<Limits> parse_limits(std::string_view word) {
     return static_cast<Limits>(found - kLimitsWords.begin());
 }
 
-edit::Edited retarget_clips(Bytes file, Bytes other, const RetargetClips& options, Log& log) {
+edit::Edited retarget_clips(Bytes file, Bytes other, const RetargetClips& options, Log& log,
+                            std::vector<RetargetedClip>* numbers) {
     const auto source = open_model(other, true, "the source");
     if (!source) return source.error();
     if (source->clips().empty()) return Problem{"the source has no clips"};
@@ -445,8 +478,10 @@ edit::Edited retarget_clips(Bytes file, Bytes other, const RetargetClips& option
         if (auto others = tell_other_characters(*model, what)) log.warnings.push_back(*std::move(others));
     }
     const float scale = retarget->scale();
-    const auto transfer = ClipRetargeting(*std::move(retarget), options, log).run(clips);
+    ClipRetargeting retargeting(*std::move(retarget), options, log);
+    const auto transfer = retargeting.run(clips);
     if (!transfer) return transfer.error();
+    if (numbers != nullptr) *numbers = retargeting.take_numbers();
     log.done.push_back("legs are " + with("%.3g", scale) + " times as long as the source's");
     return edit::put_clips(file, other, *transfer, options.same_name, log);
 }

@@ -1,21 +1,16 @@
 #include "spread_jumps.h"
 
+#include "turn.h"
+
 #include <bendy/runtime/constrain.h>
 
 #include <glm/gtc/quaternion.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
 namespace bendy::motion {
 namespace {
-
-double turn_between(const glm::quat& a, const glm::quat& b) {
-    const glm::dquat by = glm::conjugate(glm::dquat(a)) * glm::dquat(b);
-    return 2.0 * std::asin(std::min(1.0, glm::length(glm::dvec3(by.x, by.y, by.z))));
-}
 
 /// One joint over all frames.
 class Joint {
