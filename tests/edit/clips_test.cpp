@@ -2,6 +2,7 @@
 
 #include "format/edit_file.h"
 #include "runtime/build_model.h"
+#include "runtime/clip_model.h"
 #include "runtime/packed_model.h"
 
 #include <gtest/gtest.h>
@@ -12,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -563,6 +566,97 @@ TEST(RootMotion, SaysWhyItCannot) {
               "clip \"Walk\": no joint has the role hips; name the joint that moves, as in CLIP=JOINT..");
 }
 
+/// A clip of 12 s in which the hips go along a path and sway about it, once a second; keys at 60 a second. A spine that
+/// turns with the sway is its cycle.
+Buffer walk_along(const std::function<glm::dvec2(double)>& path, Interpolation interpolation, bool has_roles = true) {
+    const double sway = 2.0 * M_PI;
+    const auto place = [&](double t) {
+        const glm::dvec2 ground = path(t) + glm::dvec2(0.03 * std::sin(sway * t), 0.02 * std::cos(2.0 * sway * t));
+        return glm::dvec3(ground.x, 0.9 + 0.02 * std::sin(sway * t), ground.y);
+    };
+    test::ClipSpec clip{"Walk", 0.0f, 12.0f};
+    test::TrackSpec moved{TrackPath::translation, 0, 3, {}, {}}, turned{TrackPath::rotation, 1, 4, {}, {}};
+    const double h = 1.0 / 60.0;
+    for (int k = 0; k <= 720; ++k) {
+        const double t = k * h;
+        std::vector<glm::dvec3> rows{place(t)};
+        const glm::dvec3 slope = (place(t + 1e-4) - place(t - 1e-4)) / 2e-4;
+        if (interpolation == Interpolation::cubic) rows = {slope, place(t), slope};
+        moved.times.push_back(static_cast<float>(t));
+        turned.times.push_back(static_cast<float>(t));
+        for (const glm::dvec3& row : rows)
+            for (int c = 0; c < 3; ++c) moved.values.push_back(static_cast<float>(row[c]));
+        const double angle = 0.2 * std::sin(sway * t);
+        for (const double number : {0.0, std::sin(angle), 0.0, std::cos(angle)})
+            turned.values.push_back(static_cast<float>(number));
+    }
+    clip.tracks = {moved, turned};
+    Node node = test::clip_node(clip);
+    test::child(node, "TRAK").payload.at(offsetof(TrackRecord, interpolation)) = static_cast<std::byte>(interpolation);
+    test::ModelSpec spec;
+    spec.joints = {{kNone, rest_of(glm::quat(1, 0, 0, 0), {0, 0.9f, 0}), {}, "hips"},
+                   {0, rest_of(glm::quat(1, 0, 0, 0), {0, 0.2f, 0}), {}, "spine"}};
+    if (has_roles) {
+        const std::vector<RoleRecord> roles{{0, static_cast<std::uint16_t>(Role::hips), 0}};
+        spec.more.push_back(test::make_leaf(FourCC("ROLE"), test::bytes_of_all(roles)));
+    }
+    spec.more.push_back(node);
+    return test::build_file(spec);
+}
+
+TEST(OnTheSpot, TakesTheWayOutAndKeepsWhatSwaysAboutIt) {
+    const std::array<std::function<glm::dvec2(double)>, 3> paths{
+        [](double t) { return glm::dvec2(0.5 * t, 1.4 * t); },
+        [](double t) { return 5.0 * glm::dvec2(std::cos(0.3 * t) - 1.0, std::sin(0.3 * t)); },
+        [](double) { return glm::dvec2(0.0, 2.0); }};
+    for (const Interpolation interpolation : {Interpolation::linear, Interpolation::cubic}) {
+        for (const auto& path : paths) {
+            Log log;
+            const Owned made(changed(walk_along(path, interpolation), "on-the-spot", "Walk", &log));
+            EXPECT_TRUE(log.warnings.empty());
+            for (int k = 0; k <= 2400; ++k) {
+                const double t = k / 200.0;
+                const glm::dvec3 now(place_of(pose_at(*made, 0, t), 0));
+                const double sway = 2.0 * M_PI * t;
+                EXPECT_NEAR(now.y, 0.9 + 0.02 * std::sin(sway), 1e-3);
+                // A circle bends by 20 mm within a cycle, and at the ends nothing says how it goes on.
+                const bool is_end = t < 0.5 || t > 11.5;
+                const double bound = &path != &paths[1] ? 1e-3 : is_end ? 0.04 : 0.02;
+                EXPECT_NEAR(now.x, 0.03 * std::sin(sway), bound) << t;
+                EXPECT_NEAR(now.z, 0.02 * std::cos(2.0 * sway), bound) << t;
+            }
+        }
+    }
+}
+
+TEST(OnTheSpot, AveragesOverACycleOrAsLongAsIsSaid) {
+    const auto straight = [](double t) { return glm::dvec2(0.0, t); };
+    Log log;
+    (void)changed(walk_along(straight, Interpolation::linear), "on-the-spot", "Walk", &log);
+    EXPECT_EQ(log.done.front(), "clip \"Walk\", 12 m at 1 m/s, averaged over 1 s: taken out of joint \"hips\"");
+    (void)changed(changed(walk_along(straight, Interpolation::linear), "trim", "Walk=0..7.3"), "on-the-spot", "Walk",
+                  &log);
+    EXPECT_NE(log.done.back().find("averaged over 1 s"), std::string::npos) << log.done.back();
+    (void)changed(walk_along(straight, Interpolation::linear), "on-the-spot", "Walk@0.5", &log);
+    EXPECT_NE(log.done.back().find("averaged over 0.5 s"), std::string::npos) << log.done.back();
+    EXPECT_TRUE(log.warnings.empty());
+    (void)changed(changed(walk_along(straight, Interpolation::linear), "trim", "Walk=0..0.4"), "on-the-spot", "Walk",
+                  &log);
+    EXPECT_NE(log.warnings.at(0).find("has no cycle that repeats"), std::string::npos);
+}
+
+TEST(OnTheSpot, SaysWhyItCannot) {
+    const auto straight = [](double t) { return glm::dvec2(0.0, t); };
+    const Buffer file = walk_along(straight, Interpolation::linear);
+    EXPECT_EQ(wrong(file, "on-the-spot", "Walk@0"), "\"Walk@0\" is not CLIP[@SECONDS]");
+    EXPECT_EQ(wrong(file, "on-the-spot", "Walk@13"),
+              "clip \"Walk\": it lasts 12 s, and its way cannot be averaged over 13 s");
+    EXPECT_EQ(wrong(walk_along(straight, Interpolation::linear, false), "on-the-spot", "Walk"),
+              "clip \"Walk\": no joint has the role hips; --role hips=JOINT says which joint moves");
+    const auto far = [](double t) { return glm::dvec2(1e25 * t * t, 0.0); };
+    EXPECT_EQ(wrong(walk_along(far, Interpolation::linear), "on-the-spot", "Walk@1"), "");
+}
+
 TEST(Clips, AreKeptAndCopied) {
     const Buffer file = body({clip_of("Walk", all_tracks()), clip_of("Run", all_tracks()), clip_of("Idle", {})});
     const std::vector<std::string> names{"Idle", "W*"};
@@ -623,8 +717,9 @@ TEST(Clips, OfDamagedFilesAreRefusedOrValid) {
         Buffer file = good;
         file[at] ^= std::byte{static_cast<unsigned char>(1u << (at % 8))};
         if (!test::resum(file)) continue;
-        for (const auto& [word, text] : {std::pair("mirror", "*"), std::pair("trim", "*=0.5..1"),
-                                         std::pair("loop", "*=0.5"), std::pair("root-motion", "*=hips..rig")}) {
+        for (const auto& [word, text] :
+             {std::pair("mirror", "*"), std::pair("trim", "*=0.5..1"), std::pair("loop", "*=0.5"),
+              std::pair("root-motion", "*=hips..rig"), std::pair("on-the-spot", "*")}) {
             const std::string said = text;
             Log log;
             const Edited edited = change_clips(file, *parse_clip_change(word, std::span(&said, 1)), log);

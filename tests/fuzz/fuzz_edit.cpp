@@ -18,12 +18,13 @@ namespace {
 using namespace bendy;
 
 edit::Edited change_clip(Bytes file, unsigned choice, edit::Log& log) {
-    constexpr std::array<std::string_view, 7> kTexts{"#0", "*=copy*", "*=0.1..0.5", "*@20", "*", "*=0.1", "*=#1..#0"};
+    constexpr std::array<std::string_view, 8> kTexts{"#0", "*=copy*", "*=0.1..0.5", "*@20",
+                                                     "*",  "*=0.1",   "*=#1..#0",   "*@0.1"};
     const edit::ClipWord& word = edit::clip_words()[choice % kTexts.size()];
     const std::string text(kTexts.at(choice % kTexts.size()));
     const auto change = edit::parse_clip_change(word.word, std::span(&text, 1));
     fuzz::check(change.has_value(), "the text has the shape that its word wants");
-    if (choice % 8 == 7) return edit::limit_influences(file, 1 + choice % 3, log);
+    if (choice / kTexts.size() % 8 == 7) return edit::limit_influences(file, 1 + choice % 3, log);
     return edit::change_clips(file, *change, log);
 }
 

@@ -255,6 +255,10 @@ class Edit(File):
         """
         return self._change_clips("root-motion", f"{clip}={source}..{to}")
 
+    def on_the_spot(self, clip, seconds=None):
+        """Takes a clip's way over the ground out, averaged over some seconds or one cycle; what sways about it stays."""
+        return self._change_clips("on-the-spot", f"{clip}" if seconds is None else f"{clip}@{float(seconds)!r}")
+
     def limit_influences(self, most):
         """Leaves each vertex its `most` largest influences at most, scaled to the same sum."""
         return self._take(_bendy.limit_influences(self._source, most))

@@ -35,7 +35,11 @@ constexpr std::array kClipWords{
              "repeat the clip; during the last SECONDS it drifts to the pose of its start"},
     ClipWord{ClipWork::root_motion, "root-motion", "CLIP=FROM..TO",
              "the movement over the ground (x and z) goes from joint FROM to joint TO above it. Without TO it is taken "
-             "out; without FROM, the highest joint that moves, down to the hips"}};
+             "out; without FROM, the highest joint that moves, down to the hips"},
+    ClipWord{
+        ClipWork::on_the_spot, "on-the-spot", "CLIP[@SECONDS]",
+        "take out the way over the ground, averaged over SECONDS or, without them, over one cycle of the clip; what "
+        "sways and pulses about that way stays"}};
 
 constexpr std::string_view kDots = "..";
 constexpr double kLowestRate = 1e-3;
@@ -82,6 +86,15 @@ bool read_range(std::string_view text, ClipChange& change) {
     return read(text.substr(0, dots), change.from) && read(text.substr(dots + kDots.size()), change.to);
 }
 
+/// Reads CLIP or CLIP@SECONDS, with seconds above 0; what follows the last @ belongs to the name if it is no number.
+bool read_on_the_spot(std::string_view text, ClipChange& change) {
+    const auto parts = split_change(text, '@');
+    const auto seconds = parts ? read_number(parts->second) : std::nullopt;
+    change.clips = {seconds ? parts->first : std::string(text)};
+    change.window = seconds.value_or(0.0);
+    return !text.empty() && (!seconds || *seconds > 0.0);
+}
+
 /// Fills in what follows the word; false if it has another shape.
 bool read_text(std::string_view text, ClipChange& change) {
     if (change.work == ClipWork::keep || change.work == ClipWork::mirror) {
@@ -95,6 +108,7 @@ bool read_text(std::string_view text, ClipChange& change) {
         change.name = pair->second;
         return !change.name.empty();
     }
+    if (change.work == ClipWork::on_the_spot) return read_on_the_spot(text, change);
     auto parts = split_change(text, change.work == ClipWork::resample ? '@' : '=');
     if (!parts) return false;
     auto& [clip, said] = *parts;
@@ -125,6 +139,8 @@ std::optional<Problem> check_numbers(const ClipChange& change) {
         return Problem{text_of(change.rate) + " keys per second: the rate must be from " + text_of(kLowestRate) +
                        " to " + text_of(kHighestRate)};
     }
+    if (change.work == ClipWork::on_the_spot && !(change.window >= 0.0 && std::isfinite(change.window)))
+        return Problem{text_of(change.window) + " s: a way is averaged over a time above 0"};
     if (change.work == ClipWork::loop && !(change.blend > 0.0 && std::isfinite(change.blend)))
         return Problem{text_of(change.blend) + " s: the end must drift for a time above 0"};
     return std::nullopt;
@@ -260,6 +276,8 @@ private:
                 return mirror(clip, object);
             case ClipWork::loop:
                 return loop(clip);
+            case ClipWork::on_the_spot:
+                return keep_on_the_spot(clip, what_.window, log_);
             default:
                 return move_root(clip, what_.from_joint, what_.to_joint, log_);
         }

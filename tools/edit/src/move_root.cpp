@@ -1,10 +1,14 @@
 #include "move_root.h"
 
+#include "cycle.h"
+#include "low_pass.h"
+
 #include <bendy/format/bind_palette.h>
 
 #include <glm/ext/matrix_double3x3.hpp>
 #include <glm/ext/matrix_double4x4.hpp>
 #include <glm/ext/vector_double3.hpp>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -12,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,17 +66,58 @@ public:
     }
 
     Result<void, Problem> move(std::string_view from, std::string_view to) {
-        if (const auto found = find_joints(from, to); !found) return found.error();
+        if (const auto found = find_joints(from, to, "name the joint that moves, as in CLIP=JOINT.."); !found)
+            return found.error();
         if (from_ == to_) {
             log_.warnings.push_back("clip \"" + std::string(clip_.view->name) + "\": joint \"" + name(to_) +
                                     "\" moves over the ground already");
             return {};
         }
-        if (track_of(from_, TrackPath::translation) == nullptr || !moves(from_, TrackPath::translation)) {
-            log_.warnings.push_back("clip \"" + std::string(clip_.view->name) + "\": joint \"" + name(from_) +
-                                    "\" does not move");
+        if (!moves(from_, TrackPath::translation)) {
+            warn_that_it_rests();
             return {};
         }
+        if (const auto free = check_those_above(); !free) return free.error();
+        return send();
+    }
+
+    Result<void, Problem> stay(double window) {
+        const double length = double{clip_.end} - clip_.start;
+        const auto seconds = [](double number) { return with_three_digits(number) + " s"; };
+        if (window > length)
+            return Problem{"it lasts " + seconds(length) + ", and its way cannot be averaged over " + seconds(window)};
+        if (const auto found = find_joints({}, {}, "--role hips=JOINT says which joint moves"); !found)
+            return found.error();
+        if (!moves(from_, TrackPath::translation) || !(length > 0.0)) {
+            warn_that_it_rests();
+            return {};
+        }
+        if (const auto free = check_those_above(); !free) return free.error();
+        const Cycle cycle = find_cycle(clip_);
+        if (window == 0.0 && !cycle.seconds) {
+            log_.warnings.push_back("clip \"" + std::string(clip_.view->name) +
+                                    "\" has no cycle that repeats: its way is "
+                                    "averaged over its whole length; CLIP@SECONDS says over how much");
+        }
+        return take_out(window > 0.0 ? window : cycle.seconds.value_or(length), cycle.repeats);
+    }
+
+private:
+    static constexpr std::size_t kMostKnots = 1u << 16u;
+
+    static std::string with_three_digits(double number) {
+        std::array<char, 32> text{};
+        std::snprintf(text.data(), text.size(), "%.3g", std::abs(number) < 1e-6 ? 0.0 : number);
+        return text.data();
+    }
+
+    void warn_that_it_rests() const {
+        log_.warnings.push_back("clip \"" + std::string(clip_.view->name) + "\": joint \"" + name(from_) +
+                                "\" does not move");
+    }
+
+    /// Joints above the one that moves must not move themselves.
+    [[nodiscard]] Result<void, Problem> check_those_above() const {
         for (std::uint32_t above = joints_[from_].parent; above != kNone; above = joints_[above].parent) {
             const bool is_moved = moves(above, TrackPath::translation) || moves(above, TrackPath::rotation) ||
                                   moves(above, TrackPath::scale);
@@ -79,10 +125,9 @@ public:
             return Problem{"joint \"" + name(above) + "\" above \"" + name(from_) +
                            "\" moves too; give it as the one that root motion is taken from"};
         }
-        return send();
+        return {};
     }
 
-private:
     [[nodiscard]] std::string name(std::uint32_t joint) const { return std::string(joints_[joint].name); }
 
     [[nodiscard]] const ClipTrack* track_of(std::uint32_t joint, TrackPath path) const {
@@ -104,14 +149,14 @@ private:
         return static_cast<std::uint32_t>(found->front());
     }
 
-    Result<void, Problem> find_joints(std::string_view from, std::string_view to) {
+    /// \param advice  what to do if the joint is not known
+    Result<void, Problem> find_joints(std::string_view from, std::string_view to, std::string_view advice) {
         if (from.empty()) {
             const auto& roles = clip_.object->roles;
             const auto hips = std::find_if(roles.begin(), roles.end(), [](const RoleRecord& record) {
                 return record.role == static_cast<std::uint16_t>(Role::hips);
             });
-            if (hips == roles.end())
-                return Problem{"no joint has the role hips; name the joint that moves, as in CLIP=JOINT.."};
+            if (hips == roles.end()) return Problem{"no joint has the role hips; " + std::string(advice)};
             from_ = hips->joint;
             for (std::uint32_t at = from_; at != kNone; at = joints_[at].parent) {
                 if (moves(at, TrackPath::translation)) from_ = at;
@@ -149,7 +194,20 @@ private:
         return rests;
     }
 
-    Result<void, Problem> send() {
+    /// The movement of a joint over the ground, d = matrix * l + shift in model space, l the joint's translation; and
+    /// the way back to l.
+    struct Ground {
+        Affine movement;
+        glm::dmat3 back{1.0};
+        std::vector<RestRecord> still;     ///< see still_pose
+        std::vector<glm::dmat4> matrices;  ///< of that pose
+    };
+
+    [[nodiscard]] glm::dmat4 above(const Ground& ground, std::uint32_t joint) const {
+        return joints_[joint].parent == kNone ? glm::dmat4(1.0) : ground.matrices[joints_[joint].parent];
+    }
+
+    [[nodiscard]] Result<Ground, Problem> find_ground() const {
         std::vector<std::uint32_t> parents;
         std::vector<RestRecord> rests;
         for (const JointView& joint : joints_) {
@@ -157,25 +215,33 @@ private:
             rests.push_back(joint.rest);
         }
         const glm::dvec3 at_rest = rest_matrices(rests, parents)[from_][3];
-        const std::vector<RestRecord> still = still_pose();
-        const std::vector<glm::dmat4> matrices = rest_matrices(still, parents);
-        const auto above = [&](std::uint32_t joint) {
-            return joints_[joint].parent == kNone ? glm::dmat4(1.0) : matrices[joints_[joint].parent];
-        };
-        // d = chosen * (A l + a - at_rest) is the movement, in model space; l the joint's translation.
-        const glm::dmat3 chosen(glm::dvec3(1, 0, 0), glm::dvec3(0), glm::dvec3(0, 0, 1));
-        const glm::dmat4 a = above(from_);
-        const Affine movement{chosen * glm::dmat3(a), chosen * (glm::dvec3(a[3]) - at_rest)};
-        const auto back = inverse_of(glm::dmat3(a));
+        Ground ground;
+        ground.still = still_pose();
+        ground.matrices = rest_matrices(ground.still, parents);
+        const glm::dmat4 space = above(ground, from_);
+        const auto back = inverse_of(glm::dmat3(space));
         if (!back) return flat(from_);
-        ClipTrack& track = clip_.tracks[tracks_[from_].at(0) - 1];
-        tell(track, movement);
+        const glm::dmat3 chosen(glm::dvec3(1, 0, 0), glm::dvec3(0), glm::dvec3(0, 0, 1));
+        ground.movement = {chosen * glm::dmat3(space), chosen * (glm::dvec3(space[3]) - at_rest)};
+        ground.back = *back;
+        return ground;
+    }
+
+    [[nodiscard]] ClipTrack& moving_track() { return clip_.tracks[tracks_[from_].at(0) - 1]; }
+
+    Result<void, Problem> send() {
+        const auto ground = find_ground();
+        if (!ground) return ground.error();
+        const Affine& movement = ground->movement;
+        ClipTrack& track = moving_track();
+        log_.done.push_back("root motion of " + way_of(track, movement) + " from start to end: from joint \"" +
+                            name(from_) + '"' + (to_ == kNone ? ", taken out" : " to \"" + name(to_) + '"'));
         ClipTrack moved = track;
-        apply({cleaned(glm::dmat3(1.0) - *back * movement.matrix), -(*back * movement.shift)}, track);
+        apply({cleaned(glm::dmat3(1.0) - ground->back * movement.matrix), -(ground->back * movement.shift)}, track);
         if (to_ == kNone) return {};
-        const auto into = inverse_of(glm::dmat3(above(to_)));
+        const auto into = inverse_of(glm::dmat3(above(*ground, to_)));
         if (!into) return flat(to_);
-        const auto& place = still[to_].translation;
+        const auto& place = ground->still[to_].translation;
         apply({cleaned(*into * movement.matrix), *into * movement.shift + glm::dvec3(place[0], place[1], place[2])},
               moved);
         moved.target = to_;
@@ -186,6 +252,68 @@ private:
         }
         warn_of_others();
         return {};
+    }
+
+    /// The mean of the movement over a window around each time goes.
+    Result<void, Problem> take_out(double window, bool repeats) {
+        const auto ground = find_ground();
+        if (!ground) return ground.error();
+        ClipTrack& track = moving_track();
+        const double length = double{clip_.end} - clip_.start;
+        const LowPass path(places_of(track, ground->movement, length), length, window, repeats);
+        log_.done.push_back(way_of(track, ground->movement) + " at " +
+                            with_three_digits(glm::length(path.at(length) - path.at(0.0)) / length) +
+                            " m/s, averaged over " + with_three_digits(window) + " s: taken out of joint \"" +
+                            name(from_) + '"');
+        const std::vector<double> knots = knots_of(path, track, length);
+        if (knots.size() > kMostKnots) return Problem{"its way is too long or too winding; --trim takes a part of it"};
+        for (const double at : knots) insert_key(track, static_cast<float>(clip_.start + at));
+        for (std::size_t k = 0; k < track.times.size(); ++k) {
+            const double at = std::clamp(double{track.times[k]} - clip_.start, 0.0, length);
+            const std::span<float> key = track.key(k);
+            const glm::dvec3 place = ground->back * path.at(at), slope = ground->back * path.slope(at);
+            for (std::size_t c = 0; c < key.size(); ++c) {
+                const auto axis = static_cast<int>(c % 3);
+                const bool is_value = !track.is_cubic() || c / 3 == 1;
+                key[c] = static_cast<float>(double{key[c]} - (is_value ? place[axis] : slope[axis]));
+            }
+        }
+        track.has_frames = false;
+        return {};
+    }
+
+    [[nodiscard]] std::vector<glm::dvec3> places_of(const ClipTrack& track, const Affine& movement,
+                                                    double length) const {
+        constexpr double kPlacesPerSecond = 240.0, kMost = 1e6;
+        const double steps = std::clamp(std::ceil(length * kPlacesPerSecond), 2.0, kMost);
+        std::vector<glm::dvec3> places;
+        for (double k = 0.0; k <= steps; ++k) {
+            std::array<double, 3> value{};
+            sample(track, clip_.start + length * k / steps, value);
+            places.push_back(movement.matrix * glm::dvec3(value[0], value[1], value[2]) + movement.shift);
+        }
+        return places;
+    }
+
+    /// Times between the track's keys at which there must be another, since the path is not straight.
+    static std::vector<double> knots_of(const LowPass& path, const ClipTrack& track, double length) {
+        constexpr double kStraight = 2e-4, kClosest = 1.0 / 120.0;  // metres, seconds
+        std::vector<double> knots;
+        if (track.interpolation == Interpolation::step) return knots;
+        std::vector<std::pair<double, double>> spans{{0.0, length}};
+        while (!spans.empty() && knots.size() <= kMostKnots) {
+            const auto [from, to] = spans.back();
+            spans.pop_back();
+            const auto off = [&, from = from, to = to](double share) {
+                return glm::length(path.at(from + share * (to - from)) -
+                                   ((1.0 - share) * path.at(from) + share * path.at(to)));
+            };
+            if (to - from < kClosest || std::max({off(0.25), off(0.5), off(0.75)}) < kStraight) continue;
+            const double middle = 0.5 * (from + to);
+            knots.push_back(middle);
+            spans.insert(spans.end(), {{from, middle}, {middle, to}});
+        }
+        return knots;
     }
 
     [[nodiscard]] static Result<glm::dmat3, Problem> inverse_of(const glm::dmat3& matrix) {
@@ -201,17 +329,14 @@ private:
         return {"a joint above \"" + name(joint) + "\" is scaled to nothing, so that it cannot move"};
     }
 
-    void tell(const ClipTrack& track, const Affine& movement) const {
+    /// "clip "Walk", 1.4 m"
+    [[nodiscard]] std::string way_of(const ClipTrack& track, const Affine& movement) const {
         std::array<double, 3> first{};
         std::array<double, 3> last{};
         sample(track, clip_.start, first);
         sample(track, clip_.end, last);
         const glm::dvec3 way = movement.matrix * glm::dvec3(last[0] - first[0], last[1] - first[1], last[2] - first[2]);
-        std::array<char, 32> metres{};
-        std::snprintf(metres.data(), metres.size(), "%.3g m", std::sqrt(way.x * way.x + way.z * way.z));
-        log_.done.push_back("root motion of clip \"" + std::string(clip_.view->name) + "\", " + metres.data() +
-                            " from start to end: from joint \"" + name(from_) + '"' +
-                            (to_ == kNone ? ", taken out" : " to \"" + name(to_) + '"'));
+        return "clip \"" + std::string(clip_.view->name) + "\", " + with_three_digits(glm::length(way)) + " m";
     }
 
     /// Other joints below the one that moves now move with it.
@@ -240,6 +365,10 @@ private:
 };
 
 }  // namespace
+
+Result<void, Problem> keep_on_the_spot(ClipKeys& clip, double window, Log& log) {
+    return RootMover(clip, log).stay(window);
+}
 
 Result<void, Problem> move_root(ClipKeys& clip, std::string_view from, std::string_view to, Log& log) {
     return RootMover(clip, log).move(from, to);

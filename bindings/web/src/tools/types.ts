@@ -191,7 +191,7 @@ export interface Edited {
 }
 
 /** What can be done with clips: the options of `bendy edit`, described in docs/cli.md. */
-export type ClipWork = 'keep-clip' | 'copy-clip' | 'trim' | 'resample' | 'mirror' | 'loop' | 'root-motion';
+export type ClipWork = 'keep-clip' | 'copy-clip' | 'trim' | 'resample' | 'mirror' | 'loop' | 'root-motion' | 'on-the-spot';
 
 /** What to do if a clip of that name exists: reject; replace the existing clip; or number the new one, as in "Run.001". */
 export type SameName = 'error' | 'replace' | 'number';

@@ -14,13 +14,14 @@
 namespace bendy::edit {
 
 enum class ClipWork : std::uint8_t {
-    keep,        ///< strips all other clips
-    copy,        ///< adds a clip of another name, after the original
-    trim,        ///< keeps a part, which then begins at 0; the ends of the part get keys that lie on the curves
-    resample,    ///< one linear key per frame, and one at the end; tracks that step or have a single key stay
-    mirror,      ///< left to right; roles, or names, say which joints, meshes and morph targets are pairs
-    loop,        ///< the end becomes equal to the start, by a drift of the last seconds, and the clip repeats
-    root_motion  ///< the movement over the ground goes from a joint to one above it, or is taken out
+    keep,         ///< strips all other clips
+    copy,         ///< adds a clip of another name, after the original
+    trim,         ///< keeps a part, which then begins at 0; the ends of the part get keys that lie on the curves
+    resample,     ///< one linear key per frame, and one at the end; tracks that step or have a single key stay
+    mirror,       ///< left to right; roles, or names, say which joints, meshes and morph targets are pairs
+    loop,         ///< the end becomes equal to the start, by a drift of the last seconds, and the clip repeats
+    root_motion,  ///< the movement over the ground goes from a joint to one above it, or is taken out
+    on_the_spot   ///< its way over the ground is taken out, and what sways and pulses about that way stays
 };
 
 struct ClipChange {
@@ -31,6 +32,7 @@ struct ClipChange {
     double to = std::numeric_limits<double>::infinity();     ///< the same for its end
     double rate = 0.0;                                       ///< keys per second
     double blend = 0.0;                                      ///< seconds, above 0: how long the drift of `loop` takes
+    double window = 0.0;     ///< seconds over which the way of `on_the_spot` is averaged; 0: one cycle of the clip
     std::string from_joint;  ///< that moves over the ground; empty: the highest one that moves, down to the hips
     std::string to_joint;    ///< that moves instead; empty: none
 };
