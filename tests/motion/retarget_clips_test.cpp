@@ -512,10 +512,14 @@ TEST(RetargetClips, ThePageSaysWhatIsFarFromTheSource) {
     EXPECT_NE(page.find("limbs that point more than " + whole(kFarOfLimb) +
                         " degrees elsewhere than the source's, other bones more than " + whole(kFarOfOthers) + ":"),
               std::string::npos);
-    EXPECT_NE(page.find("by more than " + whole(100.0 * kFarMiss) + " % of the legs' length."), std::string::npos);
+    EXPECT_NE(page.find("by more than " + whole(100.0 * kFarMiss) + " % of the legs' length;"), std::string::npos);
     EXPECT_NE(page.find("by at most " + whole(kTurnSpeed) + " radians a second (legs under hard limits: " +
                         whole(kHardLegSpeed) + ") beyond " + whole(10.0 * kOfSource).insert(1, ".") + " times"),
               std::string::npos);
+    EXPECT_NE(page.find("by more than " + whole(kPopTurn) + " degrees in 1/" + whole(1.0 / kPopSeconds) +
+                        " s, and by more than twice the most"),
+              std::string::npos);
+    EXPECT_EQ(kPopOfSource, 2.0);
     const std::string most = whole(glm::degrees(kSoftLimit));
     EXPECT_NE(page.find("up to " + most + " degrees beyond limits"), std::string::npos);
     EXPECT_NE(page.find("e / (1 + e / " + most + ")"), std::string::npos);

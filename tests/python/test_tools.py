@@ -269,8 +269,10 @@ def test_clips_are_changed(mannequin):
     assert mirrored.end > 0.5
     text = "mixamorig:Hips"
     assert "taken out" in bendy.edit(mannequin).root_motion("Walk", text).done[-1] or edit.done
+    assert "averaged over 1 s" in bendy.edit(mannequin).on_the_spot("Walk").done[-1]
+    assert "averaged over 0.5 s" in bendy.edit(mannequin).on_the_spot("Walk", 0.5).done[-1]
     for wrong in (lambda e: e.trim("Walk", 2, 1), lambda e: e.loop("Walk", 0), lambda e: e.resample("Walk", float("nan")),
-                  lambda e: e.keep_clips("")):
+                  lambda e: e.on_the_spot("Walk", 0), lambda e: e.keep_clips("")):
         with pytest.raises(ValueError):
             wrong(edit)
     for wrong in (lambda e: e.trim("Walk", 0, 9), lambda e: e.mirror("Wlak"), lambda e: e.root_motion("Walk", "a", "b")):

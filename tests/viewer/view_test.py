@@ -105,6 +105,25 @@ class Render(WithFolder):
         pixels = self.render("tentacle", "--size", "80x60", "--background", "#3366cc")[3]
         self.assertTrue(all(abs(a - b) <= 1 for a, b in zip(pixels[:3], (0x33, 0x66, 0xcc))), pixels[:3])
 
+    def test_a_character_beside_another_one(self):
+        """Each half is the picture of one of the two alone, at the same time of its own clip."""
+        view = ["--size", "80x60", "--clip", "Walk", "--time", "0.3", "--camera", "20,5"]
+        width, height, channels, both = self.render("mannequin", *view, "--beside",
+                                                    f"{self.folder / 'mannequin.bendy'}:Idle")
+        self.assertEqual((width, height), (160, 60))
+        row = 80 * channels
+        rows = [both[at:at + 2 * row] for at in range(0, len(both), 2 * row)]
+        right = self.render("mannequin", *view)
+        left = self.render("mannequin", *view[:3], "Idle", *view[4:])
+        self.assertEqual(b"".join(line[row:] for line in rows), right[3])
+        self.assertEqual(b"".join(line[:row] for line in rows), left[3])
+        same = self.render("mannequin", *view, "--beside", self.folder / "mannequin.bendy")[3]
+        self.assertEqual(same[:row], same[row:2 * row])
+        strip = self.render("mannequin", *view[:4], "--frames", "4", "--beside", self.folder / "mannequin.bendy")
+        self.assertEqual(strip[:2], (320, 120))
+        self.refused(1, "no clip", self.folder / "mannequin.bendy", *view, "--beside", self.folder / "tentacle.bendy")
+        self.refused(1, "gone.bendy", self.folder / "mannequin.bendy", *view, "--beside", "gone.bendy")
+
     def test_each_option_changes_the_picture(self):
         plain = self.render("mannequin", "--size", "160x120", "--clip", "Walk", "--time", "0.3")
         for option in (["--bones"], ["--axes"], ["--constraints"], ["--wireframe"], ["--camera", "180,10"],

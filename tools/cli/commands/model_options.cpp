@@ -39,6 +39,17 @@ const Clip& find_clip(const std::string& clip, const std::filesystem::path& file
     return model.clips()[*found];
 }
 
+std::pair<std::filesystem::path, std::string> split_clip(const std::string& text) {
+    std::error_code ignored;
+    std::size_t colon = text.rfind(':');
+    if (std::filesystem::exists(text, ignored)) colon = std::string::npos;
+    for (; colon != std::string::npos && colon > 0; colon = text.rfind(':', colon - 1)) {
+        if (std::filesystem::exists(text.substr(0, colon), ignored))
+            return {text.substr(0, colon), text.substr(colon + 1)};
+    }
+    return {text, ""};
+}
+
 void add_format(CLI::App& command, std::string& format, const std::vector<std::string>& formats) {
     command
         .add_option("--format", format,

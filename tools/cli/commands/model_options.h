@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 // Options that several commands share, and what they ask of a model.
@@ -24,6 +25,9 @@ CLI::Option* add_root(CLI::App& command, std::filesystem::path& root);
 CLI::Option* add_clip(CLI::App& command, std::string& clip);
 /// Returns a clip by its name or number, see find_by_key. If there is none, fails with a list of the clips.
 const Clip& find_clip(const std::string& clip, const std::filesystem::path& file, const Model& model);
+
+/// Splits "walk.glb:Walk" into a file that exists and a clip in it; the clip is empty if there is a file of that name.
+std::pair<std::filesystem::path, std::string> split_clip(const std::string& text);
 
 /// Adds --format. \param formats  the first is the default for standard output
 void add_format(CLI::App& command, std::string& format, const std::vector<std::string>& formats);

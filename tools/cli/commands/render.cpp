@@ -51,6 +51,7 @@ struct RenderArguments {
     std::string frames;  // a number, or A..B@RATE; empty: not given
     Frames pictures;
     bool verbose = false;
+    std::string beside;  // FILE or FILE:CLIP; empty: not given
     ReachRequest reach;
     viewer::RenderOptions render;
 };
@@ -142,8 +143,9 @@ bool is_sequence(const RenderArguments& arguments, const std::string& format) {
     return format == "png" && arguments.pictures.range && is_numbered(arguments.output);
 }
 
-std::uint32_t sheet_columns(unsigned frames) {
-    return static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(frames))));
+/// \param characters  beside one another in each picture
+std::uint32_t sheet_columns(unsigned frames, unsigned characters) {
+    return static_cast<std::uint32_t>(std::ceil(std::sqrt(static_cast<double>(frames) / characters)));
 }
 
 /// A sheet is a single picture, and an animation a single file, assembled in memory.
@@ -154,7 +156,8 @@ void check_frames(const RenderArguments& arguments, const std::string& format) {
                                                    " fit in one file; a # in OUT.png makes a file of each");
     }
     constexpr std::uint64_t kMostSheetPixels = std::uint64_t{viewer::kMostPixels} * viewer::kMostPixels;
-    const std::uint64_t columns = sheet_columns(number);
+    const std::uint64_t characters = arguments.beside.empty() ? 1 : 2;
+    const std::uint64_t columns = characters * sheet_columns(number, 1);
     if (format == "png" && columns * columns * arguments.render.width * arguments.render.height > kMostSheetPixels)
         throw CLI::ValidationError("--frames", "so many pictures of this --size are too large for one");
 }
@@ -201,7 +204,96 @@ private:
     viewer::PictureMaker maker_;
 };
 
-std::vector<std::byte> draw_sheet(ReachingMaker& maker, const RenderArguments& arguments) {
+/// The folders of the images that the file links to, which are drawn.
+void note_inputs(const ReadableFolders& folders, const Model& model, Outputs& outputs) {
+    for (const Texture& texture : model.textures()) {
+        for (const ImageView& image : texture.images) {
+            if (const auto file = folders.find(image.uri)) outputs.reads(*file);
+        }
+    }
+}
+
+/// The character of --beside.
+class Companion {
+public:
+    Companion(const RenderArguments& arguments, Outputs& outputs)
+        : path_(split_clip(arguments.beside).first),
+          file_(open(path_, arguments.root, outputs)),
+          model_(read_valid_model(path_, file_.bytes())),
+          folders_(folders_of(path_, arguments.root)) {
+        note_inputs(folders_, model_, outputs);
+    }
+
+    viewer::Picture draw(float time) { return maker_->draw(time); }
+
+    /// Makes ready to draw it.
+    void prepare(const RenderArguments& arguments, const Model& shown) {
+        viewer::RenderOptions options = arguments.render;
+        options.clip = clip_for(arguments);
+        options.camera.yaw += static_cast<float>(motion::facing(model_) - motion::facing(shown));
+        options.folders = folders_;
+        if (arguments.stands) options.adjust = [](Pose& pose) { (void)stand(pose); };
+        maker_.emplace(model_, options, [this](const std::string& what) { warn(path_, printable(what)); });
+    }
+
+private:
+    static CharacterFile open(const std::filesystem::path& path, const std::filesystem::path& root, Outputs& outputs) {
+        outputs.reads(path);
+        return open_character(path, root, outputs, Storage::copied);
+    }
+
+    /// The clip that was asked for, or the one that the shown clip is made from: of the same name, which may have got a
+    /// number, or the only one.
+    [[nodiscard]] const Clip* clip_for(const RenderArguments& arguments) const {
+        const std::string asked = split_clip(arguments.beside).second;
+        if (!asked.empty()) return &find_clip(asked, path_, model_);
+        if (arguments.render.clip == nullptr) return nullptr;
+        std::string name(arguments.render.clip->name);
+        if (const Clip* clip = model_.clip(name)) return clip;
+        if (const std::size_t dot = name.rfind('.'); dot != std::string::npos) name.resize(dot);
+        if (const Clip* clip = model_.clip(name)) return clip;
+        if (model_.clips().size() == 1) return model_.clips().data();
+        return &find_clip(std::string(arguments.render.clip->name), path_, model_);  // fails with a list
+    }
+
+    std::filesystem::path path_;
+    CharacterFile file_;
+    Model model_;
+    ReadableFolders folders_;
+    std::optional<viewer::PictureMaker> maker_;
+};
+
+/// The character and, to its left, the one of --beside.
+class Stage {
+public:
+    Stage(const RenderArguments& arguments, const Model& model, Companion* companion)
+        : maker_(arguments, model), companion_(companion) {
+        if (companion_ != nullptr) companion_->prepare(arguments, model);
+    }
+
+    viewer::Picture draw(float time) {
+        viewer::Picture picture = maker_.draw(time);
+        return companion_ == nullptr ? picture : side_by_side(companion_->draw(time), std::move(picture));
+    }
+    viewer::Picture draw_nothing() {
+        viewer::Picture picture = maker_.draw_nothing();
+        return companion_ == nullptr ? picture : side_by_side(picture, picture);
+    }
+    /// How many characters there are in a picture.
+    [[nodiscard]] std::uint32_t characters() const { return companion_ == nullptr ? 1 : 2; }
+    ReachingMaker& maker() { return maker_; }
+
+private:
+    static viewer::Picture side_by_side(viewer::Picture left, viewer::Picture right) {
+        const viewer::Picture unused;
+        return viewer::contact_sheet({std::move(left), std::move(right)}, 2, unused);
+    }
+
+    ReachingMaker maker_;
+    Companion* companion_;
+};
+
+std::vector<std::byte> draw_sheet(Stage& maker, const RenderArguments& arguments) {
     ProgressBar bar("drawing");
     std::vector<viewer::Picture> pictures;
     const Clip& clip = *arguments.render.clip;
@@ -210,13 +302,14 @@ std::vector<std::byte> draw_sheet(ReachingMaker& maker, const RenderArguments& a
         pictures.push_back(maker.draw(time));
         bar.show(pictures.size(), number);
     }
-    return viewer::encode_png(viewer::contact_sheet(pictures, sheet_columns(number), maker.draw_nothing()));
+    return viewer::encode_png(
+        viewer::contact_sheet(pictures, sheet_columns(number, maker.characters()), maker.draw_nothing()));
 }
 
-std::vector<std::byte> draw_animation(ReachingMaker& maker, const RenderArguments& arguments, bool is_gif) {
+std::vector<std::byte> draw_animation(Stage& maker, const RenderArguments& arguments, bool is_gif) {
     const viewer::RenderOptions& render = arguments.render;
-    const auto file =
-        is_gif ? viewer::make_gif(render.width, render.height) : viewer::make_webp(render.width, render.height);
+    const std::uint32_t width = maker.characters() * render.width;
+    const auto file = is_gif ? viewer::make_gif(width, render.height) : viewer::make_webp(width, render.height);
     const unsigned number = arguments.pictures.number();
     const double length = arguments.pictures.range
                               ? number / arguments.pictures.range->rate
@@ -230,7 +323,7 @@ std::vector<std::byte> draw_animation(ReachingMaker& maker, const RenderArgument
     return file->finish(length);
 }
 
-void draw_sequence(ReachingMaker& maker, const RenderArguments& arguments, Outputs& outputs) {
+void draw_sequence(Stage& maker, const RenderArguments& arguments, Outputs& outputs) {
     const FrameRange& range = *arguments.pictures.range;
     ProgressBar bar("drawing");
     for (std::uint32_t k = 0; k < range.count(); ++k) {
@@ -249,7 +342,8 @@ unsigned default_frames(const Clip& clip) {
     return static_cast<unsigned>(std::clamp(std::round(kRate * length), 1.0, kMost));
 }
 
-void draw_all(RenderArguments& arguments, const Model& model, const std::string& format, Outputs& outputs) {
+void draw_all(RenderArguments& arguments, const Model& model, const std::string& format, Companion* companion,
+              Outputs& outputs) {
     const bool is_animation = format != "png";
     viewer::RenderOptions& render = arguments.render;
     Frames& frames = arguments.pictures;
@@ -266,19 +360,20 @@ void draw_all(RenderArguments& arguments, const Model& model, const std::string&
     if (is_animation && frames.number() == 0) frames.count = default_frames(*render.clip);
     if (frames.range) warn_outside(arguments.file, *render.clip, *frames.range);
     warn_without_levels(arguments.file, model, render.lod);
-    ReachingMaker maker(arguments, model);
+    Stage stage(arguments, model, companion);
+    ReachingMaker& maker = stage.maker();
     if (arguments.verbose) std::cerr << "bendy: drawing with " << printable(maker.context()) << '\n';
     const float start = render.clip == nullptr ? 0.0f : render.clip->start;
     if (render.clip != nullptr && (is_animation || frames.number() > 1))
         maker.follow_frames(*render.clip, frames.range);
     if (is_sequence(arguments, format)) {
-        draw_sequence(maker, arguments, outputs);
+        draw_sequence(stage, arguments, outputs);
     } else if (is_animation) {
-        outputs.write(arguments.output, draw_animation(maker, arguments, format == "gif"));
+        outputs.write(arguments.output, draw_animation(stage, arguments, format == "gif"));
     } else if (frames.range || frames.count > 1) {
-        outputs.write(arguments.output, draw_sheet(maker, arguments));
+        outputs.write(arguments.output, draw_sheet(stage, arguments));
     } else {
-        outputs.write(arguments.output, viewer::encode_png(maker.draw(arguments.has_time ? arguments.time : start)));
+        outputs.write(arguments.output, viewer::encode_png(stage.draw(arguments.has_time ? arguments.time : start)));
     }
     maker.print_reached();
 }
@@ -292,15 +387,6 @@ void note_outputs(const RenderArguments& arguments, const std::string& format, O
     const FrameRange& range = *arguments.pictures.range;
     for (std::uint32_t k = 0; k < range.count(); ++k)
         outputs.writes(frame_output(arguments.output, range.first + k), NamedBy::user, Content::binary);
-}
-
-/// The folders of the images that the file links to, which are drawn.
-void note_inputs(const RenderArguments& arguments, const Model& model, Outputs& outputs) {
-    for (const Texture& texture : model.textures()) {
-        for (const ImageView& image : texture.images) {
-            if (const auto file = arguments.render.folders.find(image.uri)) outputs.reads(*file);
-        }
-    }
 }
 
 void run(RenderArguments arguments) {
@@ -327,9 +413,11 @@ void run(RenderArguments arguments) {
     const Model model = read_valid_model(arguments.file, file.bytes());
     arguments.render.camera.yaw += static_cast<float>(motion::facing(model));
     arguments.render.folders = folders_of(arguments.file, arguments.root);
-    note_inputs(arguments, model, outputs);
+    note_inputs(arguments.render.folders, model, outputs);
+    std::optional<Companion> companion;
+    if (!arguments.beside.empty()) companion.emplace(arguments, outputs);
     try {
-        draw_all(arguments, model, format, outputs);
+        draw_all(arguments, model, format, companion ? &*companion : nullptr, outputs);
     } catch (const viewer::ViewerError& problem) {
         fail(arguments.file, printable(problem.what()));
     }
@@ -360,6 +448,10 @@ void add_render(CLI::App& program) {
         "their own if a # in OUT.png is the place of A to B, as in run_####.png. With --reach, each frame follows from "
         "those before it: no chain jumps");
     stand->excludes(drawn_frames);
+    command->add_option(
+        "--beside", arguments->beside,
+        "FILE or FILE:CLIP: draw that character to the left of this one, at the same times; its clip of "
+        "the same name if none is given. --size is of each of the two");
     command->add_option("--size", arguments->size, "WIDTHxHEIGHT of a picture, pixels; 1024x768, of several 320x240");
     command->add_option("--camera", arguments->camera,
                         "YAW,PITCH[,DISTANCE]: degrees round the character, 0,0 its front; and a factor; 34,11 fitted");

@@ -1,5 +1,6 @@
 #include "edit/edit_work.h"
 
+#include "commands/model_options.h"
 #include "files/batch_plan.h"
 #include "files/input.h"
 #include "reports/messages.h"
@@ -56,18 +57,6 @@ Result<Buffer, Failure> read_other(const std::filesystem::path& path, const std:
 bool is_folder(const std::filesystem::path& path) {
     std::error_code ignored;
     return std::filesystem::is_directory(path, ignored);
-}
-
-/// "walk.glb:Walk" is a file and a clip in it, unless there is a file of that name.
-std::pair<std::filesystem::path, std::string> split_clip(const std::string& text) {
-    std::error_code ignored;
-    std::size_t colon = text.rfind(':');
-    if (std::filesystem::exists(text, ignored)) colon = std::string::npos;
-    for (; colon != std::string::npos && colon > 0; colon = text.rfind(':', colon - 1)) {
-        if (std::filesystem::exists(text.substr(0, colon), ignored))
-            return {text.substr(0, colon), text.substr(colon + 1)};
-    }
-    return {text, ""};
 }
 
 /// The steps in the order of the command line.

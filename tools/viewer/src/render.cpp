@@ -47,6 +47,15 @@ TextureLimits limits_of(const RenderOptions& options) {
             options.texture_bytes};
 }
 
+/// Returns the context of this thread, which all makers of pictures share: a second one would be current in place of
+/// the first.
+std::shared_ptr<OffscreenContext> context_of_thread() {
+    thread_local std::weak_ptr<OffscreenContext> known;
+    std::shared_ptr<OffscreenContext> context = known.lock();
+    if (context == nullptr) known = context = std::make_shared<OffscreenContext>();
+    return context;
+}
+
 }  // namespace
 
 /// In the order of construction; the context is destroyed after everything that uses it.
@@ -93,7 +102,7 @@ struct PictureMaker::Parts {
     }
 
     RenderOptions options;
-    OffscreenContext context;
+    std::shared_ptr<OffscreenContext> context = context_of_thread();
     Frame frame;
     Renderer renderer;
     Camera camera;
@@ -107,7 +116,7 @@ PictureMaker::PictureMaker(const Model& model, const RenderOptions& options, con
 PictureMaker::~PictureMaker() = default;
 
 const std::string& PictureMaker::context() const {
-    return parts_->context.description();
+    return parts_->context->description();
 }
 
 void PictureMaker::change(const RenderOptions& options) {
