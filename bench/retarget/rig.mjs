@@ -219,13 +219,15 @@ export function angleBetween(a, b) {
 
 const isFree = ([low, high]) => !(high - low < 2 * Math.PI);
 
-/** How far an angle is outside a range on the circle, radians. */
-function outside(angle, range = [-Infinity, Infinity]) {
+/** How far an angle is beyond a range on the circle, radians: below 0 before its start, 0 inside. */
+function beyond(angle, range = [-Infinity, Infinity]) {
     if (isFree(range)) return 0;
     const middle = (range[0] + range[1]) / 2;
     const turned = angle - middle - 2 * Math.PI * Math.round((angle - middle) / (2 * Math.PI));
-    return Math.max(0, Math.abs(turned) - (range[1] - range[0]) / 2);
+    return Math.sign(turned) * Math.max(0, Math.abs(turned) - (range[1] - range[0]) / 2);
 }
+
+const outside = (angle, range) => Math.abs(beyond(angle, range));
 
 function outsideEllipse(y, z, limit) {
     const half = (range, s) => {
@@ -237,8 +239,8 @@ function outsideEllipse(y, z, limit) {
     const share = Math.hypot(a > 0 ? y / a : 0, b > 0 ? z / b : 0);
     const length = Math.hypot(y, z);
     const beside = 2 * Math.asin(Math.min(1, Math.hypot(a > 0 ? 0 : y, b > 0 ? 0 : z)));
-    const beyond = share > 1 ? 2 * Math.asin(Math.min(1, length)) - 2 * Math.asin(Math.min(1, length / share)) : 0;
-    return Math.max(beside, beyond);
+    const over = share > 1 ? 2 * Math.asin(Math.min(1, length)) - 2 * Math.asin(Math.min(1, length / share)) : 0;
+    return Math.max(beside, over);
 }
 
 /** Both triples of Euler angles about X, Y and Z of a rotation. */
@@ -251,6 +253,28 @@ function eulerForms(r, order = 'XYZ') {
     return [angles, other];
 }
 
+/**
+ * The angle from a rotation to the one whose Euler angles are moved into a box. Where the middle angle is a right one, the outer two
+ * turn about one axis, and only their sum or difference is known: then it is shared out in many ways, and the best counts.
+ */
+function outsideBox(r, form, limit) {
+    const [first, middle, last] = [...(limit.order ?? 'XYZ')].map((axis) => axis.toLowerCase());
+    const distance = (angles) => {
+        const at = new THREE.Euler(0, 0, 0, [...(limit.order ?? 'XYZ')].reverse().join(''));
+        for (const axis of ['x', 'y', 'z']) at[axis] = angles[axis] - beyond(angles[axis], limit[axis]);
+        return r.angleTo(new THREE.Quaternion().setFromEuler(at));
+    };
+    let nearest = distance(form);
+    if (Math.abs(Math.cos(form[middle])) > 0.05) return nearest;
+    for (let k = -180; k <= 180; k += 1) {
+        for (const sign of [1, -1]) {
+            const angle = (k * Math.PI) / 180;
+            nearest = Math.min(nearest, distance({ ...form, [first]: form[first] + angle, [last]: form[last] + sign * angle }));
+        }
+    }
+    return nearest;
+}
+
 /** How far a local rotation is outside the limit of its node, radians. */
 export function violationOf(node, rotation) {
     const { limit } = node;
@@ -261,8 +285,7 @@ export function violationOf(node, rotation) {
     if (limit.model === 'free') return 0;
     if (limit.model === 'locked') return angle;
     if (limit.model === 'largestAngle') return Math.max(0, angle - (limit.angle ?? Infinity));
-    if (limit.model === 'eulerBox')
-        return Math.min(...eulerForms(r, limit.order).map((form) => Math.max(...['x', 'y', 'z'].map((axis) => outside(form[axis], limit[axis])))));
+    if (limit.model === 'eulerBox') return Math.min(...eulerForms(r, limit.order).map((form) => outsideBox(r, form, limit)));
     const twist = 2 * Math.atan2(r.x, r.w);
     const about = new THREE.Quaternion(Math.sin(twist / 2), 0, 0, Math.cos(twist / 2));
     const swing = r.clone().multiply(about.invert());

@@ -503,6 +503,35 @@ TEST(Retarget, ProposedLimitsAreSoftAndAuthoredOnesAreHard) {
     }
 }
 
+TEST(Retarget, AnElbowThatBendsToOneSideIsTurnedByTheShoulder) {
+    ConstraintRecord hinge;
+    hinge.model = static_cast<std::uint8_t>(ConstraintModel::hinge);
+    hinge.rotation_min = {-0.1f, 0.0f, 0.0f};
+    hinge.rotation_max = {2.5f, 0.0f, 0.0f};
+    hinge.frame = {0.0f, 0.0f, -std::sqrt(0.5f), std::sqrt(0.5f)};  // its X is -Y: it bends the left forearm forwards
+    Human source(HumanSpec{.axes = 0}), target(HumanSpec{.axes = 0, .elbows = {hinge}});
+    Retarget retargeted = made(source, target, {RestPoses::measured, Limits::hard, false});
+    const auto off = [&](double about, double bend) {
+        source.pose().set_rest();
+        source.turn_by("leftForeArm", {0, -1, 0}, bend);
+        source.turn_by("leftForeArm", {1, 0, 0}, about);
+        RetargetState state;
+        EXPECT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+        EXPECT_LT(glm::length(source.way("leftArm", "leftForeArm") - target.way("leftArm", "leftForeArm")), 1e-5);
+        return glm::degrees(glm::length(source.way("leftForeArm", "leftHand") - target.way("leftForeArm", "leftHand")));
+    };
+    double last = 0.0;
+    for (int about = -100; about <= 100; about += 5) {
+        const double now = off(about, 70.0);
+        EXPECT_LT(now, 2.0) << about;
+        EXPECT_LT(std::abs(now - last), 2.0) << about;
+        last = now;
+    }
+    for (int bend = 0; bend <= 140; bend += 5) EXPECT_LT(off(60.0, bend), 9.0) << bend;
+    EXPECT_LT(off(60.0, 20.0), 2.0);
+    EXPECT_GT(off(180.0, 70.0), 20.0);  // backwards it does not bend, and its shoulder does not turn half round
+}
+
 TEST(Retarget, AForearmThatTurnsRightRoundDoesNotJumpAtItsLimits) {
     ConstraintRecord bend;
     bend.model = static_cast<std::uint8_t>(ConstraintModel::swing_twist_pyramid);

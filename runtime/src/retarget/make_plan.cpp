@@ -4,6 +4,7 @@
 #include "same_rig.h"
 #include "target_names.h"
 
+#include "ik/ik_problem.h"
 #include "pose/ik_link.h"
 
 #include <bendy/runtime/binding.h>
@@ -261,6 +262,8 @@ private:
             FootPlan* const foot = limb.is_leg ? &plan_.feet.emplace_back() : nullptr;
             if (!limb.is_whole() || !source_.limbs()[k].is_whole()) continue;
             make_limb(plan_.limbs[k], source_.limbs()[k], limb, k < 2 ? ahead : -ahead);
+            const std::uint32_t upper = moved_of_[plan_.limbs[k].upper];
+            if (upper != kNone) plan_.moved[upper].limb = static_cast<std::uint32_t>(k);
             if (foot != nullptr) make_foot(*foot, source_.limbs()[k], limb);
         }
     }
@@ -316,8 +319,27 @@ private:
             const glm::vec3 place(place_in(limb.lower, limb.end));
             limb.own.record.tip_offset = {place.x, place.y, place.z};
         }
+        find_lower_side(limb);
         const bool has_middle = links_between(limb.upper, limb.lower) != 0;
         limb.can_reach = has_middle && limb.length > 0.0 && (links == plain || limb.chain != nullptr);
+    }
+
+    void find_lower_side(LimbPlan& limb) const {
+        const Constraint* const limit = plan_.target.constraint(limb.lower);
+        if (limit == nullptr || plan_.target.parents()[limb.lower] != limb.upper) return;
+        limb.upper_bone = direction(place_in(limb.upper, limb.lower));
+        limb.lower_bone = direction(place_in(limb.lower, limb.end));
+        const glm::dquat rest(plan_.target.joints()[limb.lower].rest.rotation);
+        const glm::dvec3 axis = rest * (limit->frame * preferred_side(*limit));
+        const glm::dvec3 side = glm::cross(axis, rest * limb.lower_bone);
+        const glm::dvec3 across = side - limb.upper_bone * glm::dot(side, limb.upper_bone);
+        constexpr double kClear = 0.2;  // radians
+        if (glm::length(across) > kClear) limb.lower_side = glm::normalize(across);
+    }
+
+    static glm::dvec3 direction(const glm::dvec3& way) {
+        const double length = glm::length(way);
+        return length > 0.0 ? way / length : glm::dvec3(0.0);
     }
 
     void make_foot(FootPlan& foot, const Limb& from, const Limb& to) {

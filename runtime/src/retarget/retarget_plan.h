@@ -45,6 +45,7 @@ struct MovedJoint {
     glm::dquat before{1, 0, 0, 0}, after{1, 0, 0, 0};
     bool is_copy = false;                    ///< all of the source joint's numbers
     const Constraint* constraint = nullptr;  ///< of the target's joint, in poses
+    std::uint32_t limb = kNone;              ///< whose upper joint it is
     bool is_prop = false;                    ///< translations and scales come along
     glm::dmat3 travel{1.0};                  ///< of a prop: from the source's translation since rest to the target's
 };
@@ -88,6 +89,9 @@ struct LimbPlan {
     bool can_reach = false;
     double length = 0.0;
     glm::dvec3 bend{0.0};  ///< unit: where knee or elbow point at rest, in the space of the upper joint
+    /// Units: the upper bone and, across it, the side to which limits of knee or elbow let the lower bone bend, in the
+    /// space of the upper joint; and the lower bone in its own. The side is zero if there is none.
+    glm::dvec3 upper_bone{0.0}, lower_side{0.0}, lower_bone{0.0};
 };
 
 /// A leg: where its foot stands.

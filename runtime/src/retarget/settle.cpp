@@ -22,6 +22,9 @@ namespace {
 constexpr std::size_t kMostLimbs = 4;
 constexpr float kContactRounding = 0.005f;  // of contacts that are given: curves leave out keys
 constexpr double kFullTurn = 6.283185307179586;
+// When an upper bone turns about itself for the lower one: sines of the angle between them; radians from the side to
+// which that bends; and radians by which it is off, where half of the turn is made.
+constexpr double kBent[] = {0.1, 0.3}, kBehind[] = {1.9, 2.9}, kSlack = 0.035;
 constexpr double kFarBeyond = 0.79, kMostBeyond = 1.57;  // radians: 45 and 90 degrees
 
 /// A limb in one frame, model space.
@@ -33,6 +36,12 @@ struct LimbFrame {
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};  ///< of its end
     double planted = 0.0;                 ///< how far `wanted` is decided by the ground: 0 to 1
 };
+
+/// From 0 to 1 between two numbers.
+double smooth(double number, double from, double to) {
+    const double share = std::clamp((number - from) / (to - from), 0.0, 1.0);
+    return share * share * (3.0 - 2.0 * share);
+}
 
 class Settling {
 public:
@@ -109,18 +118,48 @@ private:
         const bool is_held = moved.carrier != kNone && plan_.held[moved.carrier] != kNoTurn;
         glm::dquat& held = plan_.held[number];
         held = kNoTurn;
-        if (!is_held && moved.constraint == nullptr) return;
+        const double twist = moved.limb == kNone ? 0.0 : twist_for_lower(plan_.limbs[moved.limb]);
+        if (!is_held && moved.constraint == nullptr && twist == 0.0) return;
         const glm::dquat wanted = plan_.turns[moved.turn] * moved.after;
         const glm::dquat space = moved.above == kNone ? glm::conjugate(moved.before)
                                                       : plan_.turns[moved.above] * glm::conjugate(moved.before);
         const glm::dquat actual_space = is_held ? plan_.held[moved.carrier] * space : space;
         if (is_held) to_.set_rotation(moved.joint, glm::quat(glm::normalize(glm::conjugate(actual_space) * wanted)));
-        if (moved.constraint == nullptr) return;
+        if (twist != 0.0) {
+            const glm::dquat turned = glm::dquat(to_.local_of(moved.joint).rotation) *
+                                      glm::angleAxis(twist, plan_.limbs[moved.limb].upper_bone);
+            to_.set_rotation(moved.joint, glm::quat(glm::normalize(turned)));
+        }
+        const double outside = moved.constraint == nullptr ? 0.0 : constrain_far(moved);
+        if (outside == 0.0 && twist == 0.0) return;
+        held = glm::normalize(actual_space * glm::dquat(to_.local_of(moved.joint).rotation) * glm::conjugate(wanted));
+    }
+
+    /// Returns the angle by which the joint was turned back, radians.
+    double constrain_far(const MovedJoint& moved) {
         const glm::dquat before(to_.local_of(moved.joint).rotation);
         const double outside = constrain(*moved.constraint);
-        if (outside == 0.0) return;
         if (outside > kFarBeyond) relax(*moved.constraint, before);
-        held = glm::normalize(actual_space * glm::dquat(to_.local_of(moved.joint).rotation) * glm::conjugate(wanted));
+        return outside;
+    }
+
+    /// Returns by what the upper bone is to turn about itself, so that the lower one can point to where the source's
+    /// does: an elbow bends to one side only. 0 if it can point there, or is nearly straight.
+    double twist_for_lower(const LimbPlan& limb) {
+        if (limb.lower_side == glm::dvec3(0.0)) return 0.0;
+        const JointTransform before = to_.local_of(limb.lower);
+        const glm::dvec3 wanted = glm::dquat(before.rotation) * limb.lower_bone;
+        const glm::dvec3 across = wanted - limb.upper_bone * glm::dot(wanted, limb.upper_bone);
+        const double bent = glm::length(across);
+        if (!(bent > kBent[0])) return 0.0;
+        (void)constrain_joint(pose_, *plan_.target.constraint(limb.lower), Legal::quick);
+        const glm::dvec3 legal = glm::dquat(to_.local_of(limb.lower).rotation) * limb.lower_bone;
+        to_.set_local(limb.lower, before);
+        const double off = glm::length(legal - wanted);
+        const double angle = std::atan2(glm::dot(limb.upper_bone, glm::cross(limb.lower_side, across)),
+                                        glm::dot(limb.lower_side, across));
+        const double share = smooth(bent, kBent[0], kBent[1]) * (1.0 - smooth(std::abs(angle), kBehind[0], kBehind[1]));
+        return angle * share * off * off / (off * off + kSlack * kSlack);
     }
 
     /// A forearm or a shin that is to turn about its own axis far beyond the limits of the elbow or knee would jump
