@@ -419,7 +419,7 @@ types:
       - {id: axes, type: f4, repeat: expr, repeat-expr: 4, doc: "unit quaternion x y z w: from the body's axes, X left, Y up, Z forward, to model space"}
       - {id: ground, type: f4, doc: "metres: the coordinate of the ground of the clips along the body's up"}
       - {id: height, type: f4, doc: "metres, 0 or more: from the lowest to the highest joint with a role in the standing pose"}
-      - {id: evidence, type: u1, enum: standing_evidence, doc: "where the pose comes from: 0 a person or another program said so, 1 bind matrices, 2 a frame of a clip, 3 the rest pose, turned upright as a whole"}
+      - {id: evidence, type: u1, enum: standing_evidence, doc: "where the pose comes from: 0 a person or another program said so, 1 bind matrices, 2 a frame of a clip, 3 the rest pose, turned upright as a whole, 4 names and the lengths of bones alone"}
       - {id: reserved, size: 7, doc: "zero"}
   standing_rotation_record:
     seq:
@@ -560,7 +560,7 @@ enums:
   euler_order: {0: xyz, 1: xzy, 2: yxz, 3: yzx, 4: zxy, 5: zyx}
   constraint_scope: {0: every_pose, 1: ik_only, 2: all_but_ik}
   role: {0: none, 1: hips, 2: spine, 3: chest, 4: upper_chest, 5: neck, 6: head, 7: left_eye, 8: right_eye, 9: jaw, 10: left_upper_leg, 11: left_lower_leg, 12: left_foot, 13: left_toes, 14: right_upper_leg, 15: right_lower_leg, 16: right_foot, 17: right_toes, 18: left_shoulder, 19: left_upper_arm, 20: left_lower_arm, 21: left_hand, 22: right_shoulder, 23: right_upper_arm, 24: right_lower_arm, 25: right_hand, 26: left_thumb_metacarpal, 27: left_thumb_proximal, 28: left_thumb_distal, 29: left_index_proximal, 30: left_index_intermediate, 31: left_index_distal, 32: left_middle_proximal, 33: left_middle_intermediate, 34: left_middle_distal, 35: left_ring_proximal, 36: left_ring_intermediate, 37: left_ring_distal, 38: left_little_proximal, 39: left_little_intermediate, 40: left_little_distal, 41: right_thumb_metacarpal, 42: right_thumb_proximal, 43: right_thumb_distal, 44: right_index_proximal, 45: right_index_intermediate, 46: right_index_distal, 47: right_middle_proximal, 48: right_middle_intermediate, 49: right_middle_distal, 50: right_ring_proximal, 51: right_ring_intermediate, 52: right_ring_distal, 53: right_little_proximal, 54: right_little_intermediate, 55: right_little_distal, 56: spine_chain, 57: neck_chain, 58: tail, 59: left_front_leg, 60: right_front_leg, 61: left_hind_leg, 62: right_hind_leg, 63: left_wing, 64: right_wing}
-  standing_evidence: {0: told, 1: bind_pose, 2: clip, 3: rest_pose}
+  standing_evidence: {0: told, 1: bind_pose, 2: clip, 3: rest_pose, 4: assumed}
   solver: {0: any, 1: pull, 2: two_bone, 3: ccd, 4: fabrik, 5: aim, 6: least_squares}
   topology: {0: triangles, 1: lines, 2: points}
   curve_target: {0: nothing, 1: joint, 2: material, 3: mesh, 4: texture}

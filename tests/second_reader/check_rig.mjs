@@ -208,7 +208,7 @@ function check_roles(file, object, joints) {
 }
 
 /** STND.md. */
-const kLastEvidence = 3;
+const kLastEvidence = 4;
 const kPoseBytes = 32;
 const kRotationBytes = 16;
 

@@ -1,8 +1,8 @@
 #include "standing_pose.h"
 
+#include "assumed_stand.h"
+#include "clip_frames.h"
 #include "clip_rotations.h"
-#include "scene/evaluate.h"
-#include "scene/frame_shapes.h"
 #include "scene/turn_roots.h"
 
 #include <bendy/format/standing_pose.h>
@@ -220,43 +220,6 @@ std::vector<CandidatePose> find_bind_poses(const Scene& scene) {
 
 namespace {
 
-/// The pose of a clip at a time; properties that are not animated rest.
-std::vector<Transform> pose_at(const Scene& scene, const Clip& clip, double seconds) {
-    std::vector<Transform> locals = rest_of(scene);
-    std::vector<double> value;
-    for (const Track& track : clip.tracks) {
-        if (track.path == TrackPath::weights || track.target >= locals.size()) continue;
-        evaluate_track(track, seconds, value);
-        Transform& local = locals[track.target];
-        const auto number = [&](std::size_t k) { return static_cast<float>(value[k]); };
-        if (track.path == TrackPath::rotation) {
-            local.rotation = {number(0), number(1), number(2), number(3)};
-        } else {
-            (track.path == TrackPath::translation ? local.translation : local.scale) = {number(0), number(1),
-                                                                                        number(2)};
-        }
-    }
-    return locals;
-}
-
-/// Calls visit(locals) for frames of all clips, spread over each.
-template <class Visit>
-void visit_frames(const Scene& scene, Visit visit) {
-    constexpr std::size_t kMostFrames = 240;
-    constexpr std::size_t kMostOfClip = 24;
-    constexpr std::size_t kMostJoints = 2'000'000;  // in all frames together
-    std::size_t frames = std::min(kMostFrames, kMostJoints / std::max<std::size_t>(scene.joints.size(), 1));
-    for (const Clip& clip : scene.clips) {
-        if (clip.tracks.empty() || !clip.packed.empty()) continue;  // packed tracks are not in `tracks`
-        const ClipSpan span = span_of(clip);
-        const std::size_t steps = span.end > span.start ? kMostOfClip : 1;
-        for (std::size_t step = 0; step < steps && frames > 0; ++step, --frames) {
-            const double share = steps == 1 ? 0.0 : static_cast<double>(step) / static_cast<double>(steps - 1);
-            visit(pose_at(scene, clip, span.at(share)));
-        }
-    }
-}
-
 /// The body's own up: from the hip joints to the head, and from the feet to the hip joints.
 std::optional<glm::dvec3> own_up(const RestFrames& pose, const Humanoid& bones) {
     const std::optional<Ends> ends = ends_of(pose, bones);
@@ -283,11 +246,15 @@ glm::dvec3 find_up(const Scene& scene, const Humanoid& bones) {
 
 std::optional<CandidatePose> find_standing_frame(const Scene& scene, const Humanoid& bones, const glm::dvec3& up) {
     std::optional<CandidatePose> best;
-    double least = std::numeric_limits<double>::infinity();
+    Standing best_so_far;
     visit_frames(scene, [&](std::vector<Transform> locals) {
         const std::optional<Standing> standing = judge_stand(RestFrames(scene, locals), bones, up);
-        if (!standing || !standing->is_upright() || standing->flaws() >= least) return;
-        least = standing->flaws();
+        const auto is_worse = [&] {
+            if (standing->is_upright() != best_so_far.is_upright()) return best_so_far.is_upright();
+            return standing->flaws() >= best_so_far.flaws();
+        };
+        if (!standing || (best && is_worse())) return;
+        best_so_far = *standing;
         best = CandidatePose{StandingEvidence::clip, std::move(locals)};
     });
     return best;
@@ -427,8 +394,14 @@ std::optional<CandidatePose> find_stand(const Scene& scene, const Humanoid& bone
         if (pose && does_stand(RestFrames(scene, pose->locals), bones, up)) return pose;
     }
     auto frame = find_standing_frame(scene, bones, up);
-    if (!frame) return std::nullopt;
-    return turn_to_front(scene, bones, up, up, *std::move(frame));  // in its clips a body looks anywhere
+    if (frame && does_stand(RestFrames(scene, frame->locals), bones, up))
+        return turn_to_front(scene, bones, up, up, *std::move(frame));  // in its clips a body looks anywhere
+    const CandidatePose assumed{StandingEvidence::assumed,
+                                assume_stand(scene, bones, frame ? frame->locals : rest_of(scene))};
+    auto pose = turn_to_front(scene, bones, {0.0, 1.0, 0.0}, up, assumed);
+    const bool stands =
+        pose && does_stand(RestFrames(scene, with_turns(scene, RestFrames(scene, pose->locals))), bones, up);
+    return stands ? pose : std::nullopt;
 }
 
 std::string why_not(const Standing& standing) {
@@ -480,13 +453,13 @@ void find_standing_pose(Scene& scene, Report& report) {
     const glm::dvec3 up = find_up(scene, bones);
     const std::optional<Standing> rest = judge_stand(frames, bones, up);
     if (!rest || rest->stands()) return;  // the file has another axis up than glTF
-    if (const auto found = find_stand(scene, bones, up))
-        scene.standing_pose = make_standing_pose(scene, bones, up, *found);
-    if (scene.standing_pose) return;
-    report.warn(
-        "the body does not stand in its rest pose (" + why_not(*rest) +
-        "), nor in a clip: clips are retargeted to and from it as if it did. `bendy edit --stand CLIP@SECONDS` or "
-        "--stand-as FILE says how it stands");
+    const std::optional<CandidatePose> found = find_stand(scene, bones, up);
+    if (found) scene.standing_pose = make_standing_pose(scene, bones, up, *found);
+    if (scene.standing_pose && found->evidence != StandingEvidence::assumed) return;
+    report.warn("the body does not stand in its rest pose (" + why_not(*rest) + "), nor in a clip: " +
+                (scene.standing_pose ? "that it stands as a T of its bones is assumed"
+                                     : "clips are retargeted to and from it as if it did") +
+                ". `bendy edit --stand CLIP@SECONDS` or --stand-as FILE says how it stands");
 }
 
 }  // namespace bendy::converter

@@ -52,7 +52,7 @@ CandidatePose turned(const Scene& scene, const Rotation& turn, CandidatePose pos
 /// is none.
 glm::dvec3 find_up(const Scene& scene, const Humanoid& bones);
 
-/// The frame of all clips in which the human stands best. Nothing if there is none in which it is upright.
+/// The frame of all clips in which the human stands best, an upright one if there is any. Nothing if there are none.
 /// \param up  an axis
 std::optional<CandidatePose> find_standing_frame(const Scene& scene, const Humanoid& bones, const glm::dvec3& up);
 
@@ -67,8 +67,9 @@ std::optional<CandidatePose> turn_upright(const Scene& scene, const Humanoid& bo
 /// \param faces_front  the body is to face +Z, up to 45 degrees
 void orient(Scene& scene, SourceUp up, bool faces_front, Report& report);
 
-/// Sets Scene::standing_pose for a human whose rest pose does not stand; warns if no other pose stands either. Leaves
-/// the one that the scene has. Bind matrices are trusted first, then the rest pose turned upright, then the clips.
+/// Sets Scene::standing_pose for a human whose rest pose does not stand. Leaves the one that the scene has. Bind
+/// matrices are trusted first, then the rest pose turned upright, then a frame of a clip that stands. If there is none,
+/// warns that a T of the body's bones is assumed, or that nothing is.
 void find_standing_pose(Scene& scene, Report& report);
 
 }  // namespace bendy::converter
