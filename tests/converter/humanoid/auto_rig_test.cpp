@@ -199,7 +199,7 @@ TEST(AutoRig, AKneelingHumanGetsNoLimits) {
     const Rigged rigged = rig(character);
     EXPECT_NE(find_chain(rigged.scene, "LeftLeg"), nullptr);
     EXPECT_EQ(rigged.limited(), 0u);
-    EXPECT_EQ(warned(rigged.report, "no limits proposed"), 1u);
+    EXPECT_EQ(warned(rigged.report, "none proposed"), 1u);
 }
 
 TEST(AutoRig, LeftAndRightInterchangedGetNothing) {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -292,6 +293,40 @@ TEST(FindRoles, InAPoseOfAnyKindAndFacingAnyWay) {
         turned.move([&](glm::dvec3 p) { return about_y * p; });
         EXPECT_EQ(roles_of(turned), expected(turned)) << turn;
     }
+}
+
+/// Turns what is above the hips forward, and lets arms hang from there.
+HumanoidGltf bent_forward(HumanoidGltf human, double degrees, double arm_length = 1.0) {
+    const glm::dquat lean = glm::angleAxis(degrees * kTestDegree, glm::dvec3(1, 0, 0));
+    human.move([&](glm::dvec3 p) {
+        if (p.y <= 1.0) return p;
+        const double out = std::max(std::abs(p.x) - 0.2, 0.0);
+        const glm::dvec3 at(std::copysign(std::abs(p.x) - out, p.x), p.y - 1.0, p.z);
+        return glm::dvec3(0, 1, 0) + lean * at - glm::dvec3(0, arm_length * out, 0);
+    });
+    return human;
+}
+
+TEST(FindRoles, ClearNamesAreEnoughHoweverTheBodyRests) {
+    const HumanoidGltf whole = bent_forward(make_whole(), 80.0);
+    EXPECT_EQ(roles_of(whole), expected(whole));
+    Scene with_skin = *whole.build().import();
+    bind_at_rest(with_skin);
+    EXPECT_EQ(roles_of(with_skin), expected(whole)) << "it has thumbs";
+    const HumanoidGltf no_fingers = bent_forward(HumanoidGltf(), 80.0);
+    EXPECT_EQ(roles_of(no_fingers), expected(no_fingers));
+    Scene bound = *no_fingers.build().import();
+    bind_at_rest(bound);
+    EXPECT_EQ(roles_of(bound), Roles()) << "it was made for this pose";
+}
+
+TEST(FindRoles, OnAllFoursAHumanHasThumbs) {
+    constexpr double kToTheGround = 1.6;
+    const HumanoidGltf whole = bent_forward(make_whole(), 90.0, kToTheGround);
+    EXPECT_EQ(roles_of(whole), expected(whole));
+    const Roles animal = roles_of(bent_forward(HumanoidGltf(), 90.0, kToTheGround));
+    EXPECT_EQ(animal.count("left_front_leg0"), 1u);
+    EXPECT_EQ(animal.count("left_upper_arm"), 0u);
 }
 
 TEST(FindRoles, VrmSaysThem) {

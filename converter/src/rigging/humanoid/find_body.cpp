@@ -1,9 +1,11 @@
 #include "find_body.h"
 
+#include "assumed_stand.h"
 #include "complete_human.h"
 #include "posture.h"
 #include "standing_pose.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -78,13 +80,32 @@ bool is_upright_human(const RestFrames& rest, const NamedHumanoid& named) {
     return posture && posture->is_upright;
 }
 
+/// Whether the names are those of all parts of a human. Those of a wolf may be, too.
+bool has_all_names(const NamedHumanoid& named) {
+    constexpr std::array kParts{Bone::hips, Bone::head, Bone::left_foot, Bone::right_foot};
+    return has_all_limbs(named.bones) && !named.has_front_legs && !named.is_by_shape &&
+           std::all_of(kParts.begin(), kParts.end(), [&](Bone bone) { return named.bones.has(bone); });
+}
+
+/// Whether this is a human, however it is posed: no animal has thumbs.
+bool is_human_by_name(const NamedHumanoid& named) {
+    return has_all_names(named) && named.bones.has(Bone::left_thumb_metacarpal) &&
+           named.bones.has(Bone::right_thumb_metacarpal);
+}
+
+/// Whether meshes are bound to joints: to a pose that was made for the body, while the rest pose may be that of a clip.
+bool has_skin(const Scene& scene) {
+    return std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                       [](const Mesh& mesh) { return !mesh.palette.joints.empty(); });
+}
+
 FoundBody find_in_pose(const Scene& scene, const RestFrames& pose, const ClipRotations& clips,
                        const std::vector<bool>& among) {
     FoundBody body;
     std::vector<bool> bound = find_bound_joints(scene);
     for (std::size_t joint = 0; joint < bound.size(); ++joint) bound[joint] = bound[joint] && among[joint];
     const NamedHumanoid named = find_humanoid(scene, pose, bound);
-    if (!is_upright_human(pose, named)) body.animal = find_animal(scene, pose, bound);
+    if (!is_upright_human(pose, named) && !is_human_by_name(named)) body.animal = find_animal(scene, pose, bound);
     if (body.animal && body.animal->legs.size() == kFourLegs) return body;
     // Coats reach the ground, too: what has more legs may be a human.
     body.human = find_the_rest(scene, pose, clips, bound, among, named);
@@ -108,8 +129,19 @@ FoundBody find_body(const Scene& scene, const ClipRotations& clips, const std::v
         if (body.is_whole()) return body;
     }
     const Humanoid& named = at_rest.human.bones;
-    if (auto pose = find_standing_frame(scene, named, find_up(scene, named))) {
-        FoundBody body = find_in(*std::move(pose));
+    const glm::dvec3 up = find_up(scene, named);
+    std::optional<CandidatePose> frame = find_standing_frame(scene, named, up);
+    const auto standing = frame ? judge_stand(RestFrames(scene, frame->locals), named, up) : std::nullopt;
+    std::vector<Transform> base = frame ? frame->locals : rest_of(scene);
+    if (standing && standing->is_upright()) {
+        FoundBody body = find_in(*std::move(frame));
+        if (body.is_whole()) return body;
+    }
+    // Where a body stands at rest, its shape has contradicted the names.
+    const auto rests = judge_stand(RestFrames(scene), named, up);
+    const bool is_clear = is_human_by_name(at_rest.human) || (has_all_names(at_rest.human) && !has_skin(scene));
+    if (is_clear && !(rests && rests->stands())) {
+        FoundBody body = find_in({StandingEvidence::assumed, assume_stand(scene, named, base)});
         if (body.is_whole()) return body;
     }
     return at_rest;

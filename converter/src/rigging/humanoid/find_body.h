@@ -29,8 +29,8 @@ struct FoundBody {
 
 /// Looks for a human by names; if that does not give an upright body with all limbs, for an animal, and for the missing
 /// parts of a human by shape. Where the rest pose does not have the shape of a whole body, looks for it in the poses of
-/// the bind matrices and, if the names of a human are clear, in the frame of a clip in which it stands best.
-/// \param among  by joint: only these are considered
+/// the bind matrices and, if the names of a human are clear, in the frame of a clip in which it stands best, and in the
+/// T of its bones. \param among  by joint: only these are considered
 FoundBody find_body(const Scene& scene, const ClipRotations& clips, const std::vector<bool>& among);
 
 }  // namespace bendy::converter
