@@ -79,6 +79,12 @@ protected:
         return number;
     }
 
+    /// Where a joint is in the axes of another one, metres.
+    [[nodiscard]] std::array<float, 3> place_in(std::uint32_t space, std::uint32_t joint) const {
+        const glm::vec3 way(glm::conjugate(turns_[space]) * (places_[joint] - places_[space]));
+        return {way.x, way.y, way.z};
+    }
+
     /// Puts the roles into the file; call it last.
     void store_roles() {
         Buffer bytes;

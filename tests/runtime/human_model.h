@@ -22,7 +22,8 @@ struct HumanSpec {
     double thigh = 0.45, shin = 0.42;
     double hip_width = 0.2;
     std::uint32_t spine = 3;
-    bool is_detached = false;  ///< legs are not below the hips, feet not below the legs
+    bool is_detached = false;       ///< legs are not below the hips, feet not below the legs
+    bool has_split_thighs = false;  ///< of two joints
     /// Of a detached one: they hang on a control beside the hips.
     bool has_loose_arms = false, has_loose_spine = false;
     bool has_arms = true, has_hands = true, has_head = true;
@@ -92,18 +93,22 @@ private:
         const double x = side * 0.5 * human_.hip_width;
         const std::uint32_t upper = add(name + "UpLeg", human_.is_detached ? 0 : hips_,
                                         {x, human_.thigh + human_.shin + 0.08, 0}, of(side, Role::left_upper_leg));
+        std::uint32_t thigh = upper;
+        if (human_.has_split_thighs)
+            thigh = add(name + "Thigh", upper, {x, human_.shin + 0.08 + 0.5 * human_.thigh, 0}, Role::none);
         const std::uint32_t lower =
-            add(name + "Leg", upper, {x, human_.shin + 0.08, 0.01 * human_.thigh}, of(side, Role::left_lower_leg));
+            add(name + "Leg", thigh, {x, human_.shin + 0.08, 0.01 * human_.thigh}, of(side, Role::left_lower_leg));
         const std::uint32_t foot =
             add(name + "Foot", human_.is_detached ? 0 : lower, {x, 0.08, 0}, of(side, Role::left_foot));
         const double down = human_.feet_down * M_PI / 180.0;
         const glm::dvec3 sole(0, -0.06 * std::cos(down) - 0.13 * std::sin(down),
                               0.13 * std::cos(down) - 0.06 * std::sin(down));
         if (human_.has_toes) add(name + "Toes", foot, glm::dvec3(x, 0.08, 0) + sole, of(side, Role::left_toes));
-        if (human_.is_detached) return;
+        if (human_.is_detached && !human_.has_split_thighs) return;
         ChainRecord leg;
         leg.start = upper;
-        leg.effector = foot;
+        leg.effector = human_.is_detached ? lower : foot;
+        if (human_.is_detached) leg.tip_offset = place_in(lower, foot);
         leg.solver = static_cast<std::uint8_t>(Solver::two_bone);
         spec.chains.push_back(leg);  // "0": left, "1": right
     }

@@ -473,6 +473,7 @@ const std::vector<HumanSpec> kBuilds{
     {.is_z_up = true, .arms_down = 40.0, .thigh = 0.5, .shin = 0.35, .hip_width = 0.12, .axes = 4},
     {.facing = 180.0, .thigh = 0.2, .shin = 0.22, .hip_width = 0.3, .has_toes = false, .axes = 5},
     {.thigh = 0.5, .shin = 0.35, .is_detached = true, .axes = 6},
+    {.thigh = 0.5, .shin = 0.35, .is_detached = true, .has_split_thighs = true, .axes = 7},
 };
 
 TEST(Retarget, ProposedLimitsAreSoftAndAuthoredOnesAreHard) {

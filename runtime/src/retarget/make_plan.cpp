@@ -308,8 +308,7 @@ private:
         const std::uint32_t links = links_between(limb.upper, tip);
         const std::uint32_t plain = is_detached ? kLimbLinks - 1 : kLimbLinks;
         for (const Chain& chain : plan_.target.chains()) {
-            if (!is_detached && links != plain && chain.record.start == limb.upper && chain.record.effector == tip)
-                limb.chain = &chain;
+            if (links != plain && chain.record.start == limb.upper && chain.record.effector == tip) limb.chain = &chain;
         }
         limb.own.record.start = limb.upper;
         limb.own.record.effector = tip;

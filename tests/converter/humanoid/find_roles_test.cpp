@@ -364,6 +364,26 @@ TEST(FindRoles, AFootOfItsOwnRigIsTheFoot) {
     EXPECT_EQ(roles_of(human).at("left_foot"), "Foot.L");
 }
 
+/// A robot's leg may end in a part of the foot, while the foot itself hangs on nothing.
+TEST(FindRoles, OfTwoFeetInOnePlaceTheFootMovesMore) {
+    HumanoidGltf robot;
+    for (const std::string side : {"left", "right"}) {
+        std::erase_if(robot.bones, [&](const HumanoidGltf::Bone& bone) { return bone.name == side + "Toes"; });
+        robot.add(side + "FootPlate", "", robot[side + "Foot"].position);
+    }
+    Scene scene = *robot.build().import();
+    bind_at_rest(scene);
+    for (const bool is_plate : {false, true}) {
+        for (const std::string side : {"left", "right"}) {
+            const std::uint32_t most = joint_named(scene, side + (is_plate ? "FootPlate" : "Foot"));
+            scene.meshes[0].bones[side == "left" ? 0 : 1] = most;
+        }
+        const Roles roles = roles_of(scene);
+        EXPECT_EQ(roles.at("left_foot"), is_plate ? "leftFootPlate" : "leftFoot");
+        EXPECT_EQ(roles.at("right_foot"), is_plate ? "rightFootPlate" : "rightFoot");
+    }
+}
+
 TEST(FindRoles, AHandThatBranchesIsTheMiddle) {
     HumanoidGltf robot;
     for (const double side : {1.0, -1.0}) {

@@ -348,6 +348,24 @@ TEST(StandingPose, IsAssumedWhereNoFrameStands) {
         EXPECT_LT(degrees_off(scene, truth, joint), 3.0) << joint;
 }
 
+/// Feet of some robots hang on nothing: STND, which has no translations, would leave them where the body lies.
+TEST(StandingPose, ThatLeavesPartsBehindIsNone) {
+    HumanoidGltf robot;
+    for (const char* foot : {"leftFoot", "rightFoot"}) robot[foot].parent = "";
+    Scene scene = *robot.build().import();
+    const glm::dquat lies = about({1, 0, 0}, -90.0);
+    for (Joint& joint : scene.joints) {
+        if (joint.parent != kNone) continue;
+        set_rotation(joint.rest, glm::normalize(lies * rotation_in(joint.rest)));
+        joint.rest.translation = glm::vec3(lies * glm::dvec3(joint.rest.translation));
+    }
+    Report report;
+    find(scene, report);
+    EXPECT_FALSE(scene.roles.empty());
+    EXPECT_FALSE(scene.standing_pose.has_value());
+    EXPECT_EQ(warned(report, "does not stand"), 1u);
+}
+
 // --- up and front
 
 glm::dvec3 way_at_rest(const Scene& scene, const char* from, const char* to) {

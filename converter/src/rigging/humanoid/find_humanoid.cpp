@@ -79,6 +79,17 @@ void visit_vertices(const Scene& scene, std::uint32_t joint, Visit visit) {
     }
 }
 
+/// The sum of the weights with which a joint moves vertices.
+double weight_of(const Scene& scene, std::uint32_t joint) {
+    double sum = 0.0;
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.influences == 0 && mesh.joint == joint) sum += static_cast<double>(mesh.positions.size());
+        for (std::size_t n = 0; n < mesh.bones.size(); ++n)
+            sum += mesh.palette.joints[mesh.bones[n]] == joint ? double{mesh.weights[n]} : 0.0;
+    }
+    return sum;
+}
+
 /// The end of the geometry that a joint carries, at rest in model space: as far from the joint as its farthest vertex,
 /// towards their middle. For a last bone without a joint at its tip. Nothing if the joint carries no vertices.
 std::optional<glm::dvec3> find_mesh_end(const Scene& scene, const RestFrames& rest, std::uint32_t joint) {
@@ -176,16 +187,24 @@ private:
     }
 
     /// The joint with that name below the limb's lower bone, or else its branch that stands for the hand, or its
-    /// farthest child.
+    /// farthest child; kNone if the limb ends in a joint beside it.
     std::uint32_t find_end(BodyPart part, BodySide side, std::uint32_t lower, std::size_t loose) {
         const std::uint32_t end = pick(part, side, lower);
-        if (end != kNone) return end;
-        found_.loose_ends[loose] = pick(part, side);
-        if (found_.loose_ends[loose] != kNone) return kNone;
+        const std::uint32_t other = pick(part, side);
+        if (end != kNone && (end == other || !stands_for(other, end))) return end;
+        found_.loose_ends[loose] = other;
+        if (other != kNone) return kNone;
         const bool is_split = part == BodyPart::hand && children_[lower].size() > 2;
         if (is_split) found_.has_split_hands = true;
         const std::uint32_t branch = is_split ? find_split_hand(scene_, rest_, lower) : kNone;
         return branch != kNone ? branch : farthest_child(lower);
+    }
+
+    /// Whether a joint beside a limb is its real end: it rests where the one in the limb does, and moves more.
+    [[nodiscard]] bool stands_for(std::uint32_t other, std::uint32_t end) const {
+        const double bone = glm::distance(rest_.position(scene_.joints[end].parent), rest_.position(end));
+        return glm::distance(rest_.position(other), rest_.position(end)) < 0.01 * bone &&
+               weight_of(scene_, other) > weight_of(scene_, end);
     }
 
     [[nodiscard]] std::uint32_t farthest_child(std::uint32_t joint) const {

@@ -385,23 +385,27 @@ bool does_stand(const RestFrames& pose, const Humanoid& bones, const glm::dvec3&
     return standing && standing->stands();
 }
 
-/// The pose to trust, if the rest pose does not stand.
+/// The pose to trust, if the rest pose does not stand. Each is judged as STND will keep it: joints that hang on
+/// nothing, as feet of some robots, stay where they rest.
 std::optional<CandidatePose> find_stand(const Scene& scene, const Humanoid& bones, const glm::dvec3& up) {
+    const auto stands = [&](const std::optional<CandidatePose>& pose) {
+        return pose && does_stand(RestFrames(scene, with_turns(scene, RestFrames(scene, pose->locals))), bones, up);
+    };
     std::vector<CandidatePose> poses = find_bind_poses(scene);
     poses.push_back({StandingEvidence::rest_pose, rest_of(scene)});
     for (CandidatePose& candidate : poses) {
         auto pose = turn_upright(scene, bones, up, std::move(candidate));
-        if (pose && does_stand(RestFrames(scene, pose->locals), bones, up)) return pose;
+        if (stands(pose)) return pose;
     }
-    auto frame = find_standing_frame(scene, bones, up);
-    if (frame && does_stand(RestFrames(scene, frame->locals), bones, up))
-        return turn_to_front(scene, bones, up, up, *std::move(frame));  // in its clips a body looks anywhere
-    const CandidatePose assumed{StandingEvidence::assumed,
-                                assume_stand(scene, bones, frame ? frame->locals : rest_of(scene))};
-    auto pose = turn_to_front(scene, bones, {0.0, 1.0, 0.0}, up, assumed);
-    const bool stands =
-        pose && does_stand(RestFrames(scene, with_turns(scene, RestFrames(scene, pose->locals))), bones, up);
-    return stands ? pose : std::nullopt;
+    const auto frame = find_standing_frame(scene, bones, up);
+    if (frame) {
+        auto pose = turn_to_front(scene, bones, up, up, *frame);  // in its clips a body looks anywhere
+        if (stands(pose)) return pose;
+    }
+    auto assumed =
+        turn_to_front(scene, bones, {0.0, 1.0, 0.0}, up,
+                      {StandingEvidence::assumed, assume_stand(scene, bones, frame ? frame->locals : rest_of(scene))});
+    return stands(assumed) ? assumed : std::nullopt;
 }
 
 std::string why_not(const Standing& standing) {
