@@ -20,15 +20,19 @@ using test::ClipSpec;
 using test::HumanModel;
 using test::HumanSpec;
 
-/// A human whose rest pose lies on its back: its hips are turned. Its clip "Stand" turns them upright.
-HumanModel lying() {
+/// A human whose rest pose lies on its back: its hips are turned. Its clip "Stand" turns them upright, and about the
+/// vertical by some degrees.
+HumanModel lying(double looks = 0.0) {
     HumanModel human(HumanSpec{});
     const std::uint32_t hips = human.joint("hips");
     const std::array<float, 4> upright = human.spec.joints[hips].rest.rotation;
     ClipSpec clip{"Stand"};
     clip.tracks.push_back({TrackPath::rotation, hips, 4, {0.0f, 1.0f}, {}});
-    for (int key = 0; key < 2; ++key)
-        clip.tracks.back().values.insert(clip.tracks.back().values.end(), upright.begin(), upright.end());
+    const glm::quat looking(glm::angleAxis(looks * M_PI / 180.0, glm::dvec3(0, 1, 0)) *
+                            glm::dquat(upright[3], upright[0], upright[1], upright[2]));
+    for (int key = 0; key < 2; ++key) {
+        for (const float part : {looking.x, looking.y, looking.z, looking.w}) clip.tracks.back().values.push_back(part);
+    }
     human.spec.more.push_back(test::clip_node(clip));
     const glm::dquat turned =
         glm::angleAxis(-M_PI / 2.0, glm::dvec3(1, 0, 0)) * glm::dquat(upright[3], upright[0], upright[1], upright[2]);
@@ -80,6 +84,35 @@ TEST(Stand, IsTakenFromAClip) {
     Pose rest(*model);
     const glm::dvec3 lies(rest.model_space()[human.joint("head")][3] - rest.model_space()[human.joint("hips")][3]);
     EXPECT_LT(std::abs(lies.y) / glm::length(lies), 0.1);
+}
+
+/// Where a body looks in one frame does not turn its clips.
+TEST(Stand, FacesTheFrontWhereverTheClipLooks) {
+    for (const double looks : {0.0, 60.0, 145.0, -90.0}) {
+        const HumanModel human = lying(looks);
+        edit::Log log;
+        const auto edited = stand_as_in_clip(file_of(human), "Stand", 0.5, log);
+        ASSERT_TRUE(edited) << edited.error().message;
+        const Result<Model> model = Model::from_memory(*edited);
+        ASSERT_TRUE(model);
+        EXPECT_NEAR(model->standing_pose()->pose.axes[3], 1.0f, 1e-5f) << looks;
+        const glm::dvec3 left = place(*model, human.joint("leftHand")) - place(*model, human.joint("rightHand"));
+        EXPECT_GT(glm::normalize(left).x, 0.999) << looks;
+
+        const HumanModel other(HumanSpec{.axes = 3});
+        const Buffer other_file = file_of(other);
+        const Result<Model> target = Model::from_memory(other_file);
+        ASSERT_TRUE(target);
+        auto made = Retarget::make(*model, *target, {RestPoses::measured, Limits::off, false});
+        ASSERT_TRUE(made);
+        Pose from(*model), to(*target);
+        (void)sample(from, &model->clips()[0], 0.5f);
+        RetargetState state;
+        ASSERT_TRUE(retarget(to, *made, from, state));
+        const glm::dvec3 across(to.model_space()[other.joint("leftHand")][3] -
+                                to.model_space()[other.joint("rightHand")][3]);
+        EXPECT_NEAR(std::atan2(-across.z, across.x), looks * M_PI / 180.0, 1e-4) << "as in the source";
+    }
 }
 
 TEST(Stand, IsTakenFromAnotherFilesRestPose) {

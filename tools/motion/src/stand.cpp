@@ -74,27 +74,54 @@ std::optional<StandingPoseRecord> measure(const Model& model) {
     return record;
 }
 
+/// By how many radians about Y the body is turned from +Z; 0 up to 20 degrees.
+double heading_of(const StandingPoseRecord& record) {
+    constexpr double kStraight = 0.35;  // radians
+    const auto& [x, y, z, w] = record.axes;
+    const glm::dvec3 front(glm::quat(w, x, y, z) * glm::vec3(0.0f, 0.0f, 1.0f));
+    const double angle = std::atan2(front.x, front.z);
+    return std::abs(angle) < kStraight ? 0.0 : angle;
+}
+
 /// Joints with a role turned like this, in model space.
 class Turned {
 public:
     void add(std::uint32_t joint, const glm::dquat& turn) {
         const glm::quat own(glm::normalize(turn));
         rotations_.push_back(standing_rotation(joint, {own.x, own.y, own.z, own.w}));
+        turns_.push_back(turn);
     }
 
     /// The file with them. It is measured as a reader will understand it.
     [[nodiscard]] Edited write(Bytes file, edit::Log& log) const {
+        const auto record = measured(file);
+        if (!record) return record.error();
+        log.done.push_back("the body stands as told, " + std::to_string(rotations_.size()) + " joints turned");
+        return edit::set_standing_pose(file, *record, rotations_);
+    }
+
+    /// As write, but turned about the vertical so that the body faces Z.
+    [[nodiscard]] Edited write_to_front(Bytes file, edit::Log& log) const {
+        const auto record = measured(file);
+        if (!record) return record.error();
+        const glm::dquat to_front = glm::angleAxis(-heading_of(*record), glm::dvec3(0.0, 1.0, 0.0));
+        Turned front;
+        for (std::size_t k = 0; k < turns_.size(); ++k) front.add(rotations_[k].joint, to_front * turns_[k]);
+        return front.write(file, log);
+    }
+
+private:
+    [[nodiscard]] Result<StandingPoseRecord, Problem> measured(Bytes file) const {
         const Edited turned = edit::set_standing_pose(file, {}, rotations_);
         if (!turned) return turned.error();
         const Result<Model> model = Model::from_memory(*turned);
         const std::optional<StandingPoseRecord> record = model ? measure(*model) : std::nullopt;
         if (!record) return Problem{"hips, shoulders or legs do not say where left is: --role says what joints are"};
-        log.done.push_back("the body stands as told, " + std::to_string(rotations_.size()) + " joints turned");
-        return edit::set_standing_pose(file, *record, rotations_);
+        return *record;
     }
 
-private:
     std::vector<StandingRotationRecord> rotations_;
+    std::vector<glm::dquat> turns_;  // the same
 };
 
 Result<Model, Problem> open_body(Bytes file) {
@@ -123,7 +150,7 @@ Edited stand_as_in_clip(Bytes file, const std::string& clip, double seconds, edi
     const std::vector<glm::dquat> turns = turns_of(pose);
     Turned turned;
     for (const JointRole& role : model->roles()) turned.add(role.joint, turns[role.joint]);
-    return turned.write(file, log);
+    return turned.write_to_front(file, log);
 }
 
 Edited stand_as(Bytes file, Bytes other, edit::Log& log) {
@@ -144,14 +171,8 @@ Edited stand_as(Bytes file, Bytes other, edit::Log& log) {
 }
 
 double facing(const Model& model) {
-    constexpr double kStraight = 0.35;  // radians
     const std::optional<StandingPoseRecord> record = measure(model);
-    if (!record) return 0.0;
-    const auto& [x, y, z, w] = record->axes;
-    const glm::quat axes(w, x, y, z);
-    const glm::dvec3 front(axes * glm::vec3(0.0f, 0.0f, 1.0f));
-    const double angle = std::atan2(front.x, front.z);
-    return std::abs(angle) < kStraight ? 0.0 : angle;
+    return record ? heading_of(*record) : 0.0;
 }
 
 }  // namespace bendy::motion

@@ -9,8 +9,9 @@
 // The pose in which a character's body stands (Model::standing_pose), told by a person.
 namespace bendy::motion {
 
-/// Returns the file in which the body stands as at a time of a clip, in seconds, with Y up. A problem: no such clip, no
-/// joint with a role, or a body of which left or right is not known.
+/// Returns the file in which the body stands as at a time of a clip, in seconds, with Y up, turned about Y so that it
+/// faces +Z if it is more than 20 degrees off: where it looks in one frame must not turn all clips. A problem: no such
+/// clip, no joint with a role, or a body of which left or right is not known.
 /// \param clip  see edit::find_named
 edit::Edited stand_as_in_clip(Bytes file, const std::string& clip, double seconds, edit::Log& log);
 
