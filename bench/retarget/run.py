@@ -74,9 +74,9 @@ class Bench:
         """Jobs for the judge: one for each clip."""
         stem = self.work / f"{source['name']}_on_{target['name']}"
         full, free, back = (stem.with_suffix(f".{kind}.bendy") for kind in ("full", "free", "back"))
-        said = self.run("edit", target["target"], "-o", full, "--retarget", source["source"], "--limits", self.limits)
-        self.run("edit", "-q", target["target"], "-o", free, "--retarget", source["source"], *FREE)
-        self.run("edit", "-q", source["target"], "-o", back, "--retarget", full, *FREE)
+        said = self.run("edit", target["target"], "-o", full, "--retarget", source["source"], "--limits", self.limits, "--rests-measured")
+        self.run("edit", "-q", target["target"], "-o", free, "--retarget", source["source"], *FREE, "--rests-measured")
+        self.run("edit", "-q", source["target"], "-o", back, "--retarget", full, *FREE, "--rests-measured")
         files = {"full": self.export(full), "free": self.export(free), "back": self.export(back)}
         for path in (full, free, back):
             path.unlink()

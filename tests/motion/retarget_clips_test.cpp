@@ -352,6 +352,34 @@ TEST(RetargetClips, AnimalsPlayTheClipsOfOtherAnimals) {
     EXPECT_EQ(track_bytes(again, 0), track_bytes(again, 1));
 }
 
+/// An animal that stands on straight hind legs raises the shoulders of one that rests on bent ones: its front legs are
+/// too short to follow the directions.
+TEST(RetargetClips, TurnsOfAnimalsAreTakenFromRestIfHipsSinkOtherwise) {
+    const AnimalModel straight(AnimalSpec{.hind_leans = {0.0, 0.0, 0.0}, .front_leans = {0.0, 0.0}});
+    const AnimalModel bent(AnimalSpec{.body = {.axes = 4}, .front_leans = {0.0, 0.0}});
+    const Buffer source = file_of(straight, {swinging(straight, "Stand", 0.02)});
+    const Buffer target = counted(bent.spec);
+    const auto made = [&](RestPoses rest_poses, bool chooses, std::size_t said, std::size_t lowered) {
+        RetargetClips options;
+        options.retarget.rest_poses = rest_poses;
+        options.chooses_rests = chooses;
+        edit::Log log;
+        Buffer file = retargeted(target, source, options, log);
+        const auto count = [](const std::vector<std::string>& lines, const char* what) {
+            return static_cast<std::size_t>(std::count_if(lines.begin(), lines.end(), [&](const std::string& line) {
+                return line.find(what) != std::string::npos;
+            }));
+        };
+        EXPECT_EQ(count(log.done, "--rests-alike"), said);
+        EXPECT_EQ(count(log.warnings, "the hips are lowered"), lowered);
+        return file;
+    };
+    const Buffer measured = made(RestPoses::measured, false, 0, 1);
+    const Buffer alike = made(RestPoses::alike, false, 0, 0);
+    EXPECT_NE(measured, alike);
+    EXPECT_EQ(made(RestPoses::measured, true, 1, 0), alike);
+}
+
 TEST(RetargetClips, SaysWhatIsNotRetargeted) {
     const AnimalModel fox(AnimalSpec{});
     EXPECT_EQ(problem_of(counted(fox.spec), swinger()),
@@ -520,6 +548,7 @@ TEST(RetargetClips, ThePageSaysWhatIsFarFromTheSource) {
                         " s, and by more than twice the most"),
               std::string::npos);
     EXPECT_EQ(kPopOfSource, 2.0);
+    EXPECT_NE(page.find("over the clips is less than " + whole(100.0 * kBetter) + " % then"), std::string::npos);
     const std::string most = whole(glm::degrees(kSoftLimit));
     EXPECT_NE(page.find("up to " + most + " degrees beyond limits"), std::string::npos);
     EXPECT_NE(page.find("e / (1 + e / " + most + ")"), std::string::npos);

@@ -78,6 +78,7 @@ def tall(mannequin, tmp_path_factory):
     ({"clip": "Wal*"}, []),
     ({"limits": "off", "plants_feet": False}, ["--limits", "off", "--free-feet"]),
     ({"rest_poses": "alike"}, ["--rests-alike"]),
+    ({"chooses_rests": False}, ["--rests-measured"]),
 ])
 def test_clips_come_as_by_the_program(mannequin, tall, program, tmp_path, options, flags):
     options = {"clip": "Walk", **options}

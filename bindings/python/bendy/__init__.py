@@ -177,18 +177,20 @@ class Edit(File):
         self._inputs = [*self._inputs, other]
         return self
 
-    def retarget_clips(self, other, clip=None, *, same_name="error", **options: "bendy_retarget_options"):
+    def retarget_clips(self, other, clip=None, *, same_name="error", chooses_rests=True, **options: "bendy_retarget_options"):
         """Puts clips of another source on this character, whatever its build: see docs/retarget.md. `done` has a line for each with what
         had to give way, and `warnings` what is lost.
 
         other: a source with a character whose joints have roles, as this one's must have. clip: which of its clips, a name, a pattern as in
-        "Walk*", or a number; None: all. same_name: error, replace or number, if there is a clip of that name.
+        "Walk*", or a number; None: all. same_name: error, replace or number, if there is a clip of that name. chooses_rests: takes
+        rest poses of animals on four legs as alike if that brings feet much nearer; `done` says so.
 
         **options
         """
         clip = "" if clip is None else str(clip)
         taken = _bendy.c.RetargetOptions(**options)
-        self._take(_bendy.retarget_clips(self._source, _bendy_source(other), clip, same_name, taken))
+        chooses = bool(chooses_rests) and taken.rest_poses == "measured"
+        self._take(_bendy.retarget_clips(self._source, _bendy_source(other), clip, same_name, taken, chooses))
         self._inputs = [*self._inputs, other]
         return self
 

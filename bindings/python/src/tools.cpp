@@ -281,9 +281,10 @@ py::tuple merge_clips(const SourcePointer& source, const SourcePointer& other, c
 }
 
 py::tuple retarget_clips(const SourcePointer& source, const SourcePointer& other, const std::string& clip,
-                         const std::string& same_name, const c::Of<bendy_retarget_options>& options) {
+                         const std::string& same_name, const c::Of<bendy_retarget_options>& options,
+                         bool chooses_rests) {
     require_bendy(*other);
-    motion::RetargetClips taken{clip, {}, read_same_name(same_name)};
+    motion::RetargetClips taken{clip, {}, read_same_name(same_name), chooses_rests};
     capi::from_c(options.value, taken.retarget);
     return edited(
         source, [&](Bytes bytes, edit::Log& log) { return motion::retarget_clips(bytes, other->bytes(), taken, log); });
@@ -505,7 +506,7 @@ void bind_tools(py::module_& module) {
     module.def("merge_clips", &merge_clips, py::arg("source"), py::arg("other"), py::arg("same_name"),
                "See bendy.Edit.merge_clips.");
     module.def("retarget_clips", &retarget_clips, py::arg("source"), py::arg("other"), py::arg("clip"),
-               py::arg("same_name"), py::arg("options"), "See bendy.Edit.retarget_clips.");
+               py::arg("same_name"), py::arg("options"), py::arg("chooses_rests"), "See bendy.Edit.retarget_clips.");
     module.def("set_role", &set_role, py::arg("source"), py::arg("text"), "See bendy.Edit.set_role.");
     module.def("stand", &stand_in_clip, py::arg("source"), py::arg("clip"), py::arg("seconds"),
                "See bendy.Edit.stand.");

@@ -294,6 +294,7 @@ Json run_merge_clips(const Json& request, Made& made) {
 
 Json run_retarget_clips(const Json& request, Made& made) {
     motion::RetargetClips options{text_of(request, "clip"), {}, {}};
+    options.chooses_rests = !request.contains("restPoses");
     options.same_name = parsed(edit::parse_same_name(text_of(request, "sameName")));
     RetargetOptions& retarget = options.retarget;
     const std::string rest_poses = request.value("restPoses", "measured");

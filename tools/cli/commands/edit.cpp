@@ -114,9 +114,14 @@ void add_edit(CLI::App& program) {
         ->check(one_of({motion::kLimitsWords.begin(), motion::kLimitsWords.end()}))
         ->capture_default_str();
     command->add_flag("--free-feet", arguments->free_feet, "of --retarget: do not bring feet to the ground");
-    command->add_flag("--rests-alike", arguments->rests_alike,
-                      "of --retarget: both characters rest in the same pose, as VRM demands; joints then turn exactly "
-                      "as the other's");
+    auto* const alike = command->add_flag(
+        "--rests-alike", arguments->rests_alike,
+        "of --retarget: both characters rest in the same pose, as VRM demands; joints then turn exactly as the "
+        "other's. Between animals on four legs, this is chosen if feet then miss their places by a quarter less");
+    command
+        ->add_flag("--rests-measured", arguments->rests_measured,
+                   "of --retarget: limbs have the other's directions, also where --rests-alike would be chosen")
+        ->excludes(alike);
     command
         ->add_option("--same-name", arguments->same_name,
                      "what --merge and --retarget do if a clip of that name exists: error; replace the existing clip; "

@@ -26,7 +26,7 @@ struct EditArguments {
     std::filesystem::path root;
     std::string same_name = "error";
     std::string limits = std::string(motion::kLimitsWords.front());
-    bool free_feet = false, rests_alike = false;
+    bool free_feet = false, rests_alike = false, rests_measured = false;
     bool in_place = false;
     bool quiet = false;
     bool strict = false, json = false;

@@ -196,6 +196,7 @@ private:
     void add_retarget(const std::string& text) {
         const auto [path, clip] = split_clip(text);
         motion::RetargetClips options{clip, {}, read_same_name()};
+        options.chooses_rests = !arguments_.rests_alike && !arguments_.rests_measured;
         options.retarget.limits = *motion::parse_limits(arguments_.limits);  // checked
         options.retarget.plants_feet = !arguments_.free_feet;
         if (arguments_.rests_alike) options.retarget.rest_poses = RestPoses::alike;

@@ -201,7 +201,8 @@ export async function mergeClips(bytes: FileBytes, other: FileBytes, options: { 
 
 /**
  * Puts clips of another bendy file on this character, whatever its build: see docs/retarget.md. Both characters need roles. `done` has
- * a line for each clip with what had to give way, and `warnings` what is lost.
+ * a line for each clip with what had to give way, and `warnings` what is lost. Without restPoses, those of animals on four legs are
+ * taken as alike if that brings feet much nearer, and `done` says so.
  */
 export async function retargetClips(bytes: FileBytes, other: FileBytes, options: RetargetClipsOptions = {}): Promise<Edited> {
   checkOptions('retargetClips', options, retargetOptions);

@@ -23,6 +23,9 @@ struct RetargetClips {
     std::string clip{};  ///< which of the other file's clips: see edit::find_named; empty: all of them
     RetargetOptions retarget{};
     edit::SameName same_name = edit::SameName::error;
+    /// Between animals on four legs, takes RestPoses::alike in place of those of `retarget` if feet miss their places,
+    /// or hips are lowered, by more than kFarMiss, and by less than kBetter of that then; says so.
+    bool chooses_rests = false;
 };
 
 /// A number of a clip where it is largest.
@@ -93,5 +96,6 @@ inline constexpr double kPopSeconds = 1.0 / 240.0, kPopTurn = 8.0, kPopOfSource 
 /// and feet keep those of their own rig (docs/decisions/0070). A test compares docs/retarget.md with these numbers.
 inline constexpr double kFarOfLimb = 20.0, kFarOfOthers = 50.0;  ///< degrees
 inline constexpr double kFarMiss = 0.05;                         ///< of the length of the legs
+inline constexpr double kBetter = 0.75;  ///< of the sum over the clips of what feet miss and hips are lowered by
 
 }  // namespace bendy::motion
