@@ -1,10 +1,12 @@
 #include "ik_problem.h"
+#include "limit_chart.h"
 #include "math/rotation.h"
 
 #include <bendy/format/trig.h>
 
 #include <array>
 #include <cmath>
+#include <span>
 
 // Within limits more than one pose may be such that no step brings the tip nearer. If a descent from the pose that came
 // in does not reach, others begin where one is likely to: with the closed form, with its most promising swivel, and in
@@ -14,13 +16,21 @@ namespace {
 
 class Descents {
 public:
-    explicit Descents(IkProblem& problem) : problem_(problem) { keep(&IkLink::legal, &IkLink::local); }
+    explicit Descents(IkProblem& problem) : problem_(problem) {
+        keep(&IkLink::legal, &IkLink::local);
+        const std::size_t links = problem.links.size();
+        if (links > charts_.size()) return;
+        for (std::size_t i = 0; i < links; ++i) {
+            if (!charts_.at(i).begin(problem.links[i])) return;
+        }
+        links_with_charts_ = links;
+    }
 
     /// Descends from where the links are, to what they were saved as where that is undetermined. Returns true if this
     /// reaches.
     bool descend() {
-        const std::optional<std::uint32_t> newton = solve_newton(problem_);
-        iterations_ += newton ? *newton : solve_least_squares(problem_);
+        const std::span<LimitChart> charts = std::span(charts_).first(links_with_charts_);
+        iterations_ += charts.empty() ? solve_least_squares(problem_) : solve_newton(problem_, charts);
         consider();
         return problem_.is_reached();
     }
@@ -50,7 +60,8 @@ public:
         const auto swivel = [&](std::size_t turn) {
             keep(&IkLink::local, &IkLink::closed);
             const double angle = 2.0 * trig::kPi * static_cast<double>(turn) / kTurns;
-            start.local = legal_local(start, from_vector(way * (angle / distance)) * start.closed);
+            const glm::dquat turned = from_vector(way * (angle / distance)) * start.closed;
+            start.local = links_with_charts_ > 0 ? charts_[0].read(start, turned) : legal_local(start, turned);
             problem_.place();
         };
         std::array<double, kTurns> costs{};
@@ -108,6 +119,8 @@ private:
     }
 
     IkProblem& problem_;
+    std::array<LimitChart, LimitChart::kMostLinks> charts_;
+    std::size_t links_with_charts_ = 0;  ///< all or none
     std::uint32_t iterations_ = 0;
     bool has_best_ = false;
     double best_ = 0.0;

@@ -20,52 +20,50 @@
 namespace bendy {
 namespace {
 
-constexpr std::size_t kMostLinks = 10;
+constexpr std::size_t kMostLinks = LimitChart::kMostLinks;
 constexpr std::size_t kMostNumbers = 3 * kMostLinks;
 constexpr std::uint32_t kMostSteps = 40;
 using HessianRow = std::array<double, kMostNumbers>;
 
 class Newton {
 public:
-    explicit Newton(IkProblem& problem) : problem_(problem) {}
-
-    /// Returns false if the method does not apply.
-    bool begin() {
-        if (problem_.links.size() > kMostLinks) return false;
-        for (std::size_t i = 0; i < problem_.links.size(); ++i) {
-            if (!charts_[i].begin(problem_.links[i])) return false;
-        }
-        return true;
+    Newton(IkProblem& problem, std::span<LimitChart> charts)
+        : problem_(problem), charts_(charts), links_(charts.size()) {
+        while (!problem.has_rotation && links_ > 0 && problem.links[links_ - 1].bone_length == 0.0) --links_;
     }
 
+    /// Returns the number of steps tried.
     std::uint32_t run(std::uint32_t most) {
-        std::uint32_t iteration = 0;
-        read();
+        for (std::size_t i = 0; i < links_; ++i) charts_[i].read(problem_.links[i]);
         if (problem_.is_reached() && !problem_.stays_close) return 0;
-        constexpr double kFirst = 3.0, kClose = 1e-3, kLast = 1e-6;
+        constexpr double kFirst = 3.0, kClose = 1e-3;
         constexpr std::uint32_t kFew = 16;
         const double factor = most < kFew ? 0.03 : 0.3;
         constexpr double kSettled = 1e-3;  // radians
         const double off = problem_.cost();
-        spring_ = std::clamp(kFirst * off * std::sqrt(off), kLast, kFirst);  // less, the nearer the target is
+        // Weaker, the nearer the target is.
+        spring_ = std::max(last_spring(), std::min(kFirst * off * std::sqrt(off), kFirst));
         if (problem_.stays_close) spring_ = kClose;
         double value = objective();
-        while (iteration < most) {
-            ++iteration;
+        while (tried_ < most) {
             linearise();
             const double largest = descend(value);
-            if (spring_ > kLast) {
-                spring_ = std::max(kLast, spring_ * factor);
+            const double last = last_spring();
+            if (spring_ > last) {
+                spring_ = std::max(last, spring_ * factor);
                 value = objective();
             } else if (largest < kSmall || (problem_.is_reached() && largest < kSettled)) {
                 break;
             }
         }
-        return iteration;
+        return tried_;
     }
 
 private:
-    static constexpr double kSmall = 1e-7;  ///< radians
+    static constexpr double kSmall = 1e-4;  ///< radians
+
+    /// Returns the weakest springs: the farther the target remains, the more the tip may miss it by for them.
+    [[nodiscard]] double last_spring() const { return std::clamp(0.03 * problem_.cost(), 1e-6, 1e-2); }
 
     /// Returns a rotation vector in the space of the link's parent as what it costs: the less a joint is free about an
     /// axis, the more.
@@ -75,16 +73,25 @@ private:
         constexpr double kLeast = 1e-3;
         return glm::conjugate(link.saved * link.frame) * turn / glm::max(f, glm::dvec3(kLeast));
     }
-    [[nodiscard]] static glm::dvec3 strain(const IkLink& link) {
-        return strain(link, to_vector(link.local * glm::conjugate(link.saved)));
-    }
+
+    /// A link's turn from where it started: the chord of its angle, which needs no trigonometry and grows up to half
+    /// a turn.
+    struct Spring {
+        explicit Spring(const IkLink& link) {
+            const glm::dquat by = upper_half(link.local * glm::conjugate(link.saved));
+            turn = strain(link, 2.0 * glm::dvec3(by.x, by.y, by.z));
+            bend = by.w;
+        }
+        [[nodiscard]] double square() const { return 2.0 * glm::dot(turn, turn) / (1.0 + bend); }
+
+        glm::dvec3 turn;  ///< half the derivative of the square
+        double bend;      ///< half the second one
+    };
+
     /// Half the cost and half the square of the turns from the start, weighted.
     [[nodiscard]] double objective() const {
         double turns = 0.0;
-        for (const IkLink& link : problem_.links) {
-            const glm::dvec3 turn = strain(link);
-            turns += glm::dot(turn, turn);
-        }
+        for (std::size_t i = 0; i < links_; ++i) turns += Spring(problem_.links[i]).square();
         return 0.5 * (problem_.cost() + spring_ * turns);
     }
 
@@ -97,6 +104,7 @@ private:
             if (!is_whole) (void)find_step(false);
             const double largest = take_step();
             const double now = objective();
+            ++tried_;
             if (now < value) {
                 value = now;
                 damping_ = damping_ <= kFirst ? 0.0 : 0.1 * damping_;
@@ -109,38 +117,19 @@ private:
     }
 
     void read() {
-        for (std::size_t i = 0; i < problem_.links.size(); ++i) charts_[i].read(problem_.links[i]);
+        for (std::size_t i = 0; i < links_; ++i) (void)charts_[i].read(problem_.links[i], problem_.links[i].local);
     }
-
-    /// Half the square of a link's turn from where it started.
-    struct Spring {
-        Spring() = default;
-        explicit Spring(const glm::dvec3& by) : turn(by) {
-            const double angle = glm::length(by);
-            if (angle < 1e-6) return;
-            const trig::SinCos half = trig::sin_cos(0.5 * angle);
-            about = by / angle;
-            across = std::max(0.0, 0.5 * angle * half.cos / half.sin);
-        }
-        /// Returns its second derivative along two turns.
-        [[nodiscard]] double bend(const glm::dvec3& a, const glm::dvec3& b) const {
-            return across * glm::dot(a, b) + (1.0 - across) * (glm::dot(a, about) * glm::dot(b, about));
-        }
-
-        glm::dvec3 turn{0.0}, about{0.0};
-        double across = 1.0;
-    };
 
     /// A direction in which a link can move: one of its numbers, or two along the edge of an ellipse.
     struct Direction {
-        std::size_t link = 0;
-        std::array<double, 3> numbers{};  ///< their change
-        glm::dvec3 turn{0.0};             ///< angular velocity, in the space of the link's parent
-        glm::dvec3 strain{0.0};           ///< what it costs
-        glm::dvec3 axis{0.0};             ///< angular velocity in base space
-        glm::dvec3 slope{0.0};            ///< velocity of the tip
-        glm::dvec3 bending{0.0};          ///< its part of the second derivative: see fill
-        double gradient = 0.0, size = 0.0, bend = 0.0;
+        std::size_t link;
+        std::array<double, 3> numbers;  ///< their change
+        glm::dvec3 turn;                ///< angular velocity, in the space of the link's parent
+        glm::dvec3 strain;              ///< what it costs
+        glm::dvec3 axis;                ///< angular velocity in base space
+        glm::dvec3 slope;               ///< velocity of the tip
+        glm::dvec3 bending;             ///< its part of the second derivative: see fill
+        double gradient, size, bend;
     };
 
     void linearise() {
@@ -150,55 +139,49 @@ private:
         const glm::dvec3 turn =
             wr > 0.0 ? wr * to_vector(problem_.tip_global * glm::conjugate(problem_.target_rotation)) : glm::dvec3(0.0);
         count_ = 0;
-        for (std::size_t i = 0; i < problem_.links.size(); ++i) {
+        for (std::size_t i = 0; i < links_; ++i) {
             LimitChart& chart = charts_[i];
-            if (chart.size() == 0) continue;
             const IkLink& link = problem_.links[i];
             const glm::dvec3 arm = problem_.tip - link.position;
-            if (glm::dot(arm, arm) < 1e-18 && wr == 0.0) continue;
+            if (chart.size() == 0 || (glm::dot(arm, arm) < 1e-18 && wr == 0.0)) continue;
             chart.rebase(link);
             const glm::dquat parent = problem_.parent_global(i);
-            springs_[i] = Spring(strain(link));
-            const glm::dvec3 back = spring_ * springs_[i].turn;
+            const Spring spring(link);
+            const glm::dvec3 back = spring_ * spring.turn;
+            bends_of_springs_[i] = spring_ * spring.bend;
             const auto axes = chart.axes();
-            std::array<Direction, 3> found;
-            for (std::size_t n = 0; n < chart.size(); ++n) {
-                Direction& d = found[n];
+            const auto add = [&](const LimitChart::Numbers& numbers) -> Direction& {
+                Direction& d = directions_[count_];
                 d.link = i;
-                d.numbers[n] = 1.0;
-                d.turn = axes[n];
-                d.strain = strain(link, axes[n]);
-                d.axis = parent * axes[n];
-            }
-            std::size_t from = 0;
-            const auto finish = [&](Direction& d) {
+                d.numbers = numbers;
+                d.turn = numbers[0] * axes[0] + numbers[1] * axes[1] + numbers[2] * axes[2];
+                d.strain = strain(link, d.turn);
+                d.axis = parent * d.turn;
                 d.slope = problem_.is_uneven ? link.space * glm::cross(d.turn, link.arm) : glm::cross(d.axis, arm);
                 d.gradient = glm::dot(d.slope, off) + glm::dot(d.axis, turn) + glm::dot(d.strain, back);
+                d.size = glm::dot(d.strain, d.strain);
+                d.bend = 0.0;
+                return d;
             };
-            for (std::size_t n = 0; n < chart.size(); ++n) finish(found[n]);
             const LimitChart::Edge edge = chart.edge();
-            const double outward = edge.y * found[0].gradient + edge.z * found[1].gradient;
-            if (edge.is_there && outward < 0.0) {
-                Direction& d = found[1];
-                d.numbers = {-edge.z, edge.y, 0.0};
-                d.axis = edge.y * d.axis - edge.z * found[0].axis;
-                d.turn = edge.y * d.turn - edge.z * found[0].turn;
-                d.strain = edge.y * d.strain - edge.z * found[0].strain;
-                finish(d);
-                d.bend = -outward * edge.curvature;
-                from = 1;
+            std::size_t from = 0;
+            if (edge.is_there) {
+                const double outward = add({edge.y, edge.z, 0.0}).gradient;
+                if (outward < 0.0) {
+                    add({-edge.z, edge.y, 0.0}).bend = -outward * edge.curvature;
+                    ++count_;
+                    from = 2;
+                }
             }
             for (std::size_t n = from; n < chart.size(); ++n) {
-                Direction& d = found[n];
-                const bool is_single = !(from == 1 && n == 1);
+                LimitChart::Numbers numbers{};
+                numbers[n] = 1.0;
+                const double gradient = add(numbers).gradient;
                 const double value = chart.values()[n];
                 constexpr double kAt = 1e-12;
-                if (is_single && ((value <= chart.low()[n] + kAt && d.gradient > 0.0) ||
-                                  (value >= chart.high()[n] - kAt && d.gradient < 0.0))) {
-                    continue;
-                }
-                d.size = glm::dot(d.strain, d.strain);
-                directions_[count_++] = d;
+                const bool is_stopped = (value <= chart.low()[n] + kAt && gradient > 0.0) ||
+                                        (value >= chart.high()[n] - kAt && gradient < 0.0);
+                if (!is_stopped) ++count_;
             }
         }
         fill(off, wp, wr);
@@ -214,7 +197,7 @@ private:
                 double h = wp * glm::dot(outer.slope, inner.slope);
                 bends_[j][i] = glm::dot(outer.bending, inner.slope);
                 if (wr > 0.0) h += wr * glm::dot(outer.axis, inner.axis);
-                if (outer.link == inner.link) h += spring_ * springs_[inner.link].bend(outer.strain, inner.strain);
+                if (outer.link == inner.link) h += bends_of_springs_[inner.link] * glm::dot(outer.strain, inner.strain);
                 hessian_[j][i] = h;
             }
             bends_[j][j] += inner.bend;
@@ -225,31 +208,34 @@ private:
     /// the bends it always is.
     bool find_step(bool is_whole) {
         for (std::size_t j = 0; j < count_; ++j) {
-            for (std::size_t i = 0; i <= j; ++i) {
-                double sum = hessian_[j][i];
-                if (is_whole) sum += bends_[j][i];
-                if (i == j) sum += damping_ * directions_[j].size;
-                for (std::size_t k = 0; k < i; ++k) sum -= root_[j][k] * root_[i][k];
-                if (i == j) {
-                    if (!(sum > 1e-3 * spring_ * directions_[j].size)) {
-                        if (is_whole) return false;
-                        sum = spring_ * directions_[j].size;
-                    }
-                    root_[j][j] = std::sqrt(sum);
-                } else {
-                    root_[j][i] = sum / root_[i][i];
-                }
+            HessianRow& row = root_[j];
+            for (std::size_t i = 0; i < j; ++i) {
+                double sum = hessian_[j][i] + (is_whole ? bends_[j][i] : 0.0);
+                for (std::size_t k = 0; k < i; ++k) sum -= row[k] * root_[i][k];
+                row[i] = sum;
             }
+            double sum = hessian_[j][j] + (is_whole ? bends_[j][j] : 0.0) + damping_ * directions_[j].size;
+            for (std::size_t i = 0; i < j; ++i) {
+                const double part = row[i] * inverse_[i];
+                sum -= part * row[i];
+                row[i] = part;
+            }
+            const double least = spring_ * directions_[j].size;
+            if (!(sum > 1e-3 * least)) {
+                if (is_whole) return false;
+                sum = least;
+            }
+            inverse_[j] = 1.0 / sum;
         }
         for (std::size_t i = 0; i < count_; ++i) {
             double sum = -directions_[i].gradient;
             for (std::size_t k = 0; k < i; ++k) sum -= root_[i][k] * step_[k];
-            step_[i] = sum / root_[i][i];
+            step_[i] = sum;
         }
         for (std::size_t i = count_; i-- > 0;) {
-            double sum = step_[i];
+            double sum = step_[i] * inverse_[i];
             for (std::size_t k = i + 1; k < count_; ++k) sum -= root_[k][i] * step_[k];
-            step_[i] = sum / root_[i][i];
+            step_[i] = sum;
         }
         return true;
     }
@@ -263,7 +249,7 @@ private:
         const double part = most > kLongest ? kLongest / most : 1.0;
         std::size_t d = 0;
         std::size_t first = problem_.links.size();
-        for (std::size_t i = 0; i < problem_.links.size(); ++i) {
+        for (std::size_t i = 0; i < links_; ++i) {
             if (d == count_ || directions_[d].link != i) continue;
             first = std::min(first, i);
             LimitChart::Numbers step{};
@@ -293,22 +279,22 @@ private:
     }
 
     IkProblem& problem_;
-    std::array<LimitChart, kMostLinks> charts_;
+    std::span<LimitChart> charts_;
     std::array<LimitChart::Numbers, kMostLinks> before_;
-    std::array<Spring, kMostLinks> springs_;
+    std::array<double, kMostLinks> bends_of_springs_;
     std::array<Direction, kMostNumbers> directions_;
     std::array<HessianRow, kMostNumbers> hessian_, bends_, root_;
-    HessianRow step_{};
+    HessianRow step_{}, inverse_{};  ///< of the diagonal
+    std::size_t links_;              ///< those that move the tip or turn it as wanted
     std::size_t count_ = 0, first_ = 0;
     double spring_ = 0.0, damping_ = 0.0;
+    std::uint32_t tried_ = 0;
 };
 
 }  // namespace
 
-std::optional<std::uint32_t> solve_newton(IkProblem& problem) {
-    Newton newton(problem);
-    if (!newton.begin()) return std::nullopt;
-    return newton.run(problem.iterations != 0 ? std::min(problem.iterations, kMostSteps) : kMostSteps);
+std::uint32_t solve_newton(IkProblem& problem, std::span<LimitChart> charts) {
+    return Newton(problem, charts).run(problem.iterations != 0 ? std::min(problem.iterations, kMostSteps) : kMostSteps);
 }
 
 }  // namespace bendy

@@ -105,9 +105,9 @@ bool IkProblem::is_stretched_out() const {
 }
 
 double IkProblem::cost() const {
-    const double p = distance();
+    const glm::dvec3 off = target - tip;
     const double r = rotation_error();
-    return position_weight * p * p + (has_rotation ? rotation_weight * r * r : 0.0);
+    return position_weight * glm::dot(off, off) + (has_rotation ? rotation_weight * r * r : 0.0);
 }
 
 void IkProblem::save() {

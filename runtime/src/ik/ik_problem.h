@@ -15,6 +15,8 @@
 // A chain as the solvers see it: in the space of the start's parent ("base space"), with lengths in chain lengths.
 namespace bendy {
 
+class LimitChart;
+
 struct IkProblem {
     std::span<IkLink> links;
     glm::dvec3 origin{0};       ///< of the first link
@@ -138,8 +140,8 @@ double best_swivel(const Constraint& constraint, const glm::dquat& rest_frame, c
 bool prefers_back(const Constraint* constraint);
 std::uint32_t solve_aim(IkProblem& problem);
 std::uint32_t solve_least_squares(IkProblem& problem);
-/// Returns nothing, and does nothing, if the chain is too long or has limits of other kinds: see ik_newton.cpp.
-std::optional<std::uint32_t> solve_newton(IkProblem& problem);
+/// For a chain all of whose links have charts: see ik_newton.cpp.
+std::uint32_t solve_newton(IkProblem& problem, std::span<LimitChart> charts);
 /// Solves from the pose at hand, or in closed form, and if that does not reach, from other starts: see ik_descend.cpp.
 std::uint32_t solve_from(IkProblem& problem, bool is_closed);
 /// Solves from where the links are, close to there, and does not try other starts.

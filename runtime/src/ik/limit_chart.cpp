@@ -25,10 +25,8 @@ glm::dvec3 unit_axis(int axis) {
     return v;
 }
 
-/// Returns the square of a number in half axes of an ellipse: 0 if both are 0.
-double squared_share(double value, double half_axis) {
-    const double part = half_axis != 0.0 ? value / half_axis : 0.0;
-    return part * part;
+double inverse_or_zero(double number) {
+    return number != 0.0 ? 1.0 / number : 0.0;
 }
 
 }  // namespace
@@ -63,6 +61,8 @@ bool LimitChart::begin(const IkLink& link) {
                 if (is_ellipse && (shape.swing_low[i] > 1.0 || shape.swing_high[i] > 1.0)) return false;  // a band
                 low_[i] = shape.swing_low[i] > 1.0 ? -kUnlimited : -tangent_of_half(shape.swing_low[i]);
                 high_[i] = shape.swing_high[i] > 1.0 ? kUnlimited : tangent_of_half(shape.swing_high[i]);
+                inverse_low_[i] = inverse_or_zero(low_[i]);
+                inverse_high_[i] = inverse_or_zero(high_[i]);
             }
             put_angle(2, shape.angles[0]);
             return true;
@@ -81,11 +81,10 @@ bool LimitChart::begin(const IkLink& link) {
     }
 }
 
-void LimitChart::read(const IkLink& link) {
-    if (size_ == 0) return;
+glm::dquat LimitChart::read(const IkLink& link, const glm::dquat& local) {
     rebase(link);
-    if (kind_ == Kind::free) return;
-    const glm::dquat R = upper_half(glm::conjugate(rest_frame_) * link.local * frame_);
+    if (size_ == 0 || kind_ == Kind::free) return local;
+    const glm::dquat R = upper_half(glm::conjugate(rest_frame_) * local * frame_);
     const auto put_angle = [&](std::size_t to, double angle) {
         const bool is_limited = high_[to] < kUnlimited;
         const double middle = is_limited ? 0.5 * (low_[to] + high_[to]) : 0.0;
@@ -104,7 +103,7 @@ void LimitChart::read(const IkLink& link) {
             values_[1] = (c * R.z + s * R.y) / w;
         }
     }
-    (void)move({});
+    return move({});
 }
 
 std::array<glm::dvec3, 3> LimitChart::axes() const {
@@ -138,17 +137,16 @@ std::array<glm::dvec3, 3> LimitChart::axes() const {
 glm::dquat LimitChart::move(const Numbers& step) {
     for (std::size_t i = 0; i < size_; ++i) values_[i] = std::clamp(values_[i] + step[i], low_[i], high_[i]);
     if (kind_ == Kind::ellipse) {
-        double& y = values_[0];
-        double& z = values_[1];
-        const double size =
-            squared_share(y, y < 0.0 ? low_[0] : high_[0]) + squared_share(z, z < 0.0 ? low_[1] : high_[1]);
+        const double y = share(0), z = share(1);
+        const double size = y * y + z * z;
         if (size > 1.0) {
-            y /= std::sqrt(size);
-            z /= std::sqrt(size);
+            const double part = 1.0 / std::sqrt(size);
+            values_[0] *= part;
+            values_[1] *= part;
         }
     }
     if (kind_ == Kind::free) return glm::normalize(from_vector({values_[0], values_[1], values_[2]}) * local_);
-    return glm::normalize(rest_frame_ * rotation() * glm::conjugate(frame_));
+    return rest_frame_ * rotation() * glm::conjugate(frame_);
 }
 
 glm::dquat LimitChart::rotation() const {
@@ -160,14 +158,15 @@ glm::dquat LimitChart::rotation() const {
 
 LimitChart::Edge LimitChart::edge() const {
     if (kind_ != Kind::ellipse) return {};
-    const double y = values_[0], z = values_[1];
-    const double a = y < 0.0 ? low_[0] : high_[0], b = z < 0.0 ? low_[1] : high_[1];
+    const double y = share(0), z = share(1);
     constexpr double kOn = 1e-9;
-    if (a == 0.0 || b == 0.0 || squared_share(y, a) + squared_share(z, b) < 1.0 - kOn) return {};
-    const double aa = a * a, bb = b * b;
-    const double ny = y / aa, nz = z / bb;
-    const double length = std::sqrt(ny * ny + nz * nz);
-    return {true, ny / length, nz / length, 1.0 / (aa * bb * length * length * length)};
+    if (y * y + z * z < 1.0 - kOn) return {};
+    const double a = (values_[0] < 0.0 ? inverse_low_ : inverse_high_)[0];
+    const double b = (values_[1] < 0.0 ? inverse_low_ : inverse_high_)[1];
+    if (a == 0.0 || b == 0.0) return {};
+    const double ny = y * a, nz = z * b;
+    const double part = 1.0 / std::sqrt(ny * ny + nz * nz), flat = a * b * part;
+    return {true, ny * part, nz * part, flat * flat * part};
 }
 
 glm::dquat between_legal(const Constraint& constraint, const glm::dquat& a, const glm::dquat& b, double share) {
@@ -177,11 +176,9 @@ glm::dquat between_legal(const Constraint& constraint, const glm::dquat& a, cons
     const auto legal = [&](const glm::dquat& R) { return quick_legal_rotation(constraint, constraint.shape, R); };
     LimitChart chart;
     if (!chart.begin(link)) return legal(between(a, b, share));
-    link.local = legal(b);
-    chart.read(link);
+    (void)chart.read(link, legal(b));
     LimitChart::Numbers step = chart.values();
-    link.local = legal(a);
-    chart.read(link);
+    (void)chart.read(link, legal(a));
     if (constraint.model() == ConstraintModel::free) return between(a, b, share);
     for (std::size_t i = 0; i < chart.size(); ++i) {
         step[i] -= chart.values()[i];

@@ -19,11 +19,14 @@ namespace bendy {
 class LimitChart {
 public:
     using Numbers = std::array<double, 3>;
+    static constexpr std::size_t kMostLinks = 10;  ///< of a chain that is solved with charts
 
     /// Returns false if the link's limits have no such coordinates.
     [[nodiscard]] bool begin(const IkLink& link);
     /// Sets the numbers from the link's rotation, which is legal.
-    void read(const IkLink& link);
+    void read(const IkLink& link) { (void)read(link, link.local); }
+    /// Sets the numbers from a rotation of the link, moved inside the limits, and returns that.
+    glm::dquat read(const IkLink& link, const glm::dquat& local);
 
     /// Starts a step of a free link from its rotation.
     void rebase(const IkLink& link) {
@@ -61,11 +64,16 @@ private:
     enum class Kind : std::uint8_t { free, hinge, ellipse, pyramid, euler };
 
     [[nodiscard]] glm::dquat rotation() const;
+    /// Returns one of the swing's numbers in half axes of the ellipse.
+    [[nodiscard]] double share(std::size_t number) const {
+        return values_[number] * (values_[number] < 0.0 ? inverse_low_ : inverse_high_)[number];
+    }
 
     Kind kind_ = Kind::free;
     std::size_t size_ = 0;
     Numbers values_{}, low_{}, high_{};
-    std::array<int, 3> order_{};  ///< axes of Euler angles
+    std::array<double, 2> inverse_low_{}, inverse_high_{};  ///< of an ellipse's half axes; 0 if they have no length
+    std::array<int, 3> order_{};                            ///< axes of Euler angles
     glm::dquat rest_frame_{1, 0, 0, 0}, frame_{1, 0, 0, 0};
     glm::dquat local_{1, 0, 0, 0};  ///< of a free link
 };
