@@ -4,8 +4,10 @@
 
 #include <bendy/format/trig.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 
 // Within limits more than one pose may be such that no step brings the tip nearer. If a descent from the pose that came
@@ -30,7 +32,7 @@ public:
     /// reaches.
     bool descend() {
         const std::span<LimitChart> charts = std::span(charts_).first(links_with_charts_);
-        iterations_ += charts.empty() ? solve_least_squares(problem_) : solve_newton(problem_, charts);
+        iterations_ += charts.empty() ? solve_least_squares(problem_) : solve_newton(problem_, charts, most(), best_);
         consider();
         return problem_.is_reached();
     }
@@ -52,7 +54,7 @@ public:
     /// The same from the best of its other swivels from which no step to the side is better, one after another, as long
     /// as there may be others.
     bool descend_from_swivels(std::uint32_t& others) {
-        constexpr std::size_t kTurns = 12;
+        constexpr std::size_t kTurns = 10;
         const glm::dvec3 way = problem_.target - problem_.origin;
         const double distance = glm::length(way);
         IkLink& start = problem_.links[0];
@@ -105,6 +107,14 @@ public:
     }
 
 private:
+    /// Returns how many iterations a descent with charts may take; all of them no more than 20 for each link.
+    [[nodiscard]] std::uint32_t most() const {
+        constexpr std::uint32_t kOfLink = 20, kFirst = 40, kLater = 20;
+        const std::uint32_t all = kOfLink * static_cast<std::uint32_t>(problem_.links.size());
+        if (!best_) return std::min(kFirst, all / 2);
+        return std::min(kLater, all > iterations_ ? all - iterations_ : 0);
+    }
+
     void keep(glm::dquat IkLink::*to, glm::dquat IkLink::*from) {
         for (IkLink& link : problem_.links) link.*to = link.*from;
     }
@@ -112,8 +122,7 @@ private:
     void consider() {
         // If two are nearly equal, the first counts: rounding must not choose between them.
         constexpr double kNearer = 0.99;
-        if (has_best_ && !problem_.is_reached() && problem_.cost() >= kNearer * best_) return;
-        has_best_ = true;
+        if (best_ && !problem_.is_reached() && problem_.cost() >= kNearer * *best_) return;
         best_ = problem_.cost();
         keep(&IkLink::best, &IkLink::local);
     }
@@ -122,8 +131,7 @@ private:
     std::array<LimitChart, LimitChart::kMostLinks> charts_;
     std::size_t links_with_charts_ = 0;  ///< all or none
     std::uint32_t iterations_ = 0;
-    bool has_best_ = false;
-    double best_ = 0.0;
+    std::optional<double> best_;  ///< its cost
 };
 
 }  // namespace

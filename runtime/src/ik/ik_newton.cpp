@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <span>
 
 // Newton's method in the coordinates in which limits are intervals: a projected Newton method with an active set
 // (Bertsekas, "Projected Newton methods for optimization problems with simple constraints", 1982), damped as Levenberg
@@ -22,7 +24,6 @@ namespace {
 
 constexpr std::size_t kMostLinks = LimitChart::kMostLinks;
 constexpr std::size_t kMostNumbers = 3 * kMostLinks;
-constexpr std::uint32_t kMostSteps = 40;
 using HessianRow = std::array<double, kMostNumbers>;
 
 class Newton {
@@ -32,25 +33,26 @@ public:
         while (!problem.has_rotation && links_ > 0 && problem.links[links_ - 1].bone_length == 0.0) --links_;
     }
 
-    /// Returns the number of steps tried.
-    std::uint32_t run(std::uint32_t most) {
+    /// See solve_newton.
+    std::uint32_t run(std::uint32_t most, const std::optional<double>& best) {
         for (std::size_t i = 0; i < links_; ++i) charts_[i].read(problem_.links[i]);
         if (problem_.is_reached() && !problem_.stays_close) return 0;
-        constexpr double kFirst = 3.0, kClose = 1e-3;
+        constexpr double kStiff = 3.0, kClose = 1e-3;
         constexpr std::uint32_t kFew = 16;
-        const double factor = most < kFew ? 0.03 : 0.3;
+        const double looser = best ? 0.1 : most < kFew ? 0.03 : 0.3;
         constexpr double kSettled = 1e-3;  // radians
         const double off = problem_.cost();
         // Weaker, the nearer the target is.
-        spring_ = std::max(last_spring(), std::min(kFirst * off * std::sqrt(off), kFirst));
+        spring_ = std::max(last_spring(), std::min(kStiff, (best ? 0.3 : 3.0) * off * std::sqrt(off)));
         if (problem_.stays_close) spring_ = kClose;
         double value = objective();
         while (tried_ < most) {
             linearise();
             const double largest = descend(value);
+            if (best && is_hopeless(*best)) break;
             const double last = last_spring();
             if (spring_ > last) {
-                spring_ = std::max(last, spring_ * factor);
+                spring_ = std::max(last, spring_ * looser);
                 value = objective();
             } else if (largest < kSmall || (problem_.is_reached() && largest < kSettled)) {
                 break;
@@ -64,6 +66,13 @@ private:
 
     /// Returns the weakest springs: the farther the target remains, the more the tip may miss it by for them.
     [[nodiscard]] double last_spring() const { return std::clamp(0.03 * problem_.cost(), 1e-6, 1e-2); }
+
+    /// Returns true if a better end than one of this cost is no longer likely.
+    [[nodiscard]] bool is_hopeless(double best) const {
+        constexpr std::uint32_t kTries = 5;
+        constexpr double kNear = 1e-3;
+        return tried_ >= kTries && problem_.cost() > 2.0 * best + kNear;
+    }
 
     /// Returns a rotation vector in the space of the link's parent as what it costs: the less a joint is free about an
     /// axis, the more.
@@ -293,8 +302,10 @@ private:
 
 }  // namespace
 
-std::uint32_t solve_newton(IkProblem& problem, std::span<LimitChart> charts) {
-    return Newton(problem, charts).run(problem.iterations != 0 ? std::min(problem.iterations, kMostSteps) : kMostSteps);
+std::uint32_t solve_newton(IkProblem& problem, std::span<LimitChart> charts, std::uint32_t most,
+                           const std::optional<double>& best) {
+    if (problem.iterations != 0) most = std::min(problem.iterations, most);
+    return Newton(problem, charts).run(most, best);
 }
 
 }  // namespace bendy

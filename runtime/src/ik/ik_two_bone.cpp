@@ -1,4 +1,5 @@
 #include "ik_problem.h"
+#include "math/nearest_rotation.h"
 #include "math/rotation.h"
 #include "one_limb.h"
 
@@ -61,7 +62,7 @@ double illegality(const IkProblem& problem, std::size_t link, const glm::dquat& 
     const IkLink& l = problem.links[link];
     if (l.constraint == nullptr) return 0.0;
     const glm::dquat local = glm::conjugate(problem.parent_global(link)) * turn * l.global;
-    return angle_between(legal_local(l, local), local);
+    return excess(*l.constraint, l.constraint->shape, glm::conjugate(l.rest_frame) * local * l.frame);
 }
 
 struct MiddleTurn {
