@@ -30,10 +30,15 @@ glm::dvec3 roll_left(const IkProblem& problem) {
 std::uint32_t solve_aim(IkProblem& problem) {
     const std::uint32_t most = problem.iterations != 0 ? problem.iterations : 20;
     const std::size_t links = problem.links.size();
+    constexpr std::uint32_t kLeast = 4;  // then it ends where limits stop it
+    double before = 0.0;
     for (std::uint32_t iteration = 0; iteration < most; ++iteration) {
         const glm::dvec3 left = turn_left(problem);
         const glm::dvec3 roll = problem.has_pole ? roll_left(problem) : glm::dvec3(0.0);
-        if (glm::dot(left, left) + glm::dot(roll, roll) <= problem.tolerance * problem.tolerance) return iteration;
+        const double angle = std::sqrt(glm::dot(left, left) + glm::dot(roll, roll));
+        const bool is_stuck = iteration >= kLeast && angle > before - 0.1 * problem.tolerance;
+        if (angle <= problem.tolerance || is_stuck) return iteration;
+        before = angle;
         for (std::size_t i = 0; i < links; ++i) {
             if (problem.links[i].is_fixed) continue;
             const double share = iteration == 0 ? 1.0 / static_cast<double>(links - i) : 1.0;
