@@ -41,19 +41,18 @@ public:
         constexpr std::uint32_t kFew = 16;
         const double looser = best ? 0.1 : most < kFew ? 0.03 : 0.3;
         constexpr double kSettled = 1e-3;  // radians
-        const double off = problem_.cost();
+        at_ = measure();
+        const double off = at_.cost;
         // Weaker, the nearer the target is.
         spring_ = std::max(last_spring(), std::min(kStiff, (best ? 0.3 : 3.0) * off * std::sqrt(off)));
         if (problem_.stays_close) spring_ = kClose;
-        double value = objective();
         while (tried_ < most) {
             linearise();
-            const double largest = descend(value);
+            const double largest = descend();
             if (best && is_hopeless(*best)) break;
             const double last = last_spring();
             if (spring_ > last) {
                 spring_ = std::max(last, spring_ * looser);
-                value = objective();
             } else if (largest < kSmall || (problem_.is_reached() && largest < kSettled)) {
                 break;
             }
@@ -65,13 +64,13 @@ private:
     static constexpr double kSmall = 1e-4;  ///< radians
 
     /// Returns the weakest springs: the farther the target remains, the more the tip may miss it by for them.
-    [[nodiscard]] double last_spring() const { return std::clamp(0.03 * problem_.cost(), 1e-6, 1e-2); }
+    [[nodiscard]] double last_spring() const { return std::clamp(0.03 * at_.cost, 1e-6, 1e-2); }
 
     /// Returns true if a better end than one of this cost is no longer likely.
     [[nodiscard]] bool is_hopeless(double best) const {
         constexpr std::uint32_t kTries = 5;
         constexpr double kNear = 1e-3;
-        return tried_ >= kTries && problem_.cost() > 2.0 * best + kNear;
+        return tried_ >= kTries && at_.cost > 2.0 * best + kNear;
     }
 
     /// Returns a rotation vector in the space of the link's parent as what it costs: the less a joint is free about an
@@ -97,25 +96,28 @@ private:
         double bend;      ///< half the second one
     };
 
-    /// Half the cost and half the square of the turns from the start, weighted.
-    [[nodiscard]] double objective() const {
-        double turns = 0.0;
-        for (std::size_t i = 0; i < links_; ++i) turns += Spring(problem_.links[i]).square();
-        return 0.5 * (problem_.cost() + spring_ * turns);
+    struct Measured {
+        double cost = 0.0, turns = 0.0;  ///< the latter: the sum of the springs' squares
+    };
+    [[nodiscard]] Measured measure() const {
+        Measured now{problem_.cost()};
+        for (std::size_t i = 0; i < links_; ++i) now.turns += Spring(problem_.links[i]).square();
+        return now;
     }
+    [[nodiscard]] double objective(const Measured& pose) const { return 0.5 * (pose.cost + spring_ * pose.turns); }
 
     /// Takes a step that improves the objective, damped as much as that needs; returns its largest turn in radians.
-    double descend(double& value) {
+    double descend() {
         constexpr double kFirst = 1e-3, kLargest = 1e3;
         bool is_whole = true;
         for (;;) {
             if (is_whole && !find_step(true)) is_whole = false;
             if (!is_whole) (void)find_step(false);
             const double largest = take_step();
-            const double now = objective();
+            const Measured now = measure();
             ++tried_;
-            if (now < value) {
-                value = now;
+            if (objective(now) < objective(at_)) {
+                at_ = now;
                 damping_ = damping_ <= kFirst ? 0.0 : 0.1 * damping_;
                 return largest;
             }
@@ -125,15 +127,10 @@ private:
         }
     }
 
-    void read() {
-        for (std::size_t i = 0; i < links_; ++i) (void)charts_[i].read(problem_.links[i], problem_.links[i].local);
-    }
-
     /// A direction in which a link can move: one of its numbers, or two along the edge of an ellipse.
     struct Direction {
         std::size_t link;
         std::array<double, 3> numbers;  ///< their change
-        glm::dvec3 turn;                ///< angular velocity, in the space of the link's parent
         glm::dvec3 strain;              ///< what it costs
         glm::dvec3 axis;                ///< angular velocity in base space
         glm::dvec3 slope;               ///< velocity of the tip
@@ -154,42 +151,40 @@ private:
             const glm::dvec3 arm = problem_.tip - link.position;
             if (chart.size() == 0 || (glm::dot(arm, arm) < 1e-18 && wr == 0.0)) continue;
             chart.rebase(link);
-            const glm::dquat parent = problem_.parent_global(i);
+            const glm::dmat3 space = glm::mat3_cast(problem_.parent_global(i) * chart.basis());
             const Spring spring(link);
-            const glm::dvec3 back = spring_ * spring.turn;
+            const bool is_free = link.freedom == glm::dvec3(1.0);
+            const glm::dvec3 back = spring_ * (is_free ? glm::conjugate(chart.basis()) * spring.turn : spring.turn);
             bends_of_springs_[i] = spring_ * spring.bend;
             const auto axes = chart.axes();
-            const auto add = [&](const LimitChart::Numbers& numbers) -> Direction& {
+            const LimitChart::Edge edge = chart.edge();
+            double outward = 0.0;
+            for (std::size_t n = 0; n < chart.size(); ++n) {
                 Direction& d = directions_[count_];
+                const bool is_at_edge = edge.is_there && n < 2;
                 d.link = i;
-                d.numbers = numbers;
-                d.turn = numbers[0] * axes[0] + numbers[1] * axes[1] + numbers[2] * axes[2];
-                d.strain = strain(link, d.turn);
-                d.axis = parent * d.turn;
-                d.slope = problem_.is_uneven ? link.space * glm::cross(d.turn, link.arm) : glm::cross(d.axis, arm);
+                d.numbers = {};
+                d.numbers[n] = 1.0;
+                if (is_at_edge)
+                    d.numbers =
+                        n == 0 ? LimitChart::Numbers{edge.y, edge.z, 0.0} : LimitChart::Numbers{-edge.z, edge.y, 0.0};
+                const glm::dvec3 by = d.numbers[0] * axes[0] + d.numbers[1] * axes[1] + d.numbers[2] * axes[2];
+                d.strain = is_free ? by : strain(link, chart.basis() * by);
+                d.axis = space * by;
+                d.slope = problem_.is_uneven ? link.space * glm::cross(chart.basis() * by, link.arm)
+                                             : glm::cross(d.axis, arm);
                 d.gradient = glm::dot(d.slope, off) + glm::dot(d.axis, turn) + glm::dot(d.strain, back);
                 d.size = glm::dot(d.strain, d.strain);
-                d.bend = 0.0;
-                return d;
-            };
-            const LimitChart::Edge edge = chart.edge();
-            std::size_t from = 0;
-            if (edge.is_there) {
-                const double outward = add({edge.y, edge.z, 0.0}).gradient;
-                if (outward < 0.0) {
-                    add({-edge.z, edge.y, 0.0}).bend = -outward * edge.curvature;
-                    ++count_;
-                    from = 2;
+                d.bend = is_at_edge && n == 1 ? -outward * edge.curvature : 0.0;
+                if (is_at_edge) {
+                    if (n == 0) outward = std::min(0.0, d.gradient);
+                    if (n == 1 || outward == 0.0) ++count_;
+                    continue;
                 }
-            }
-            for (std::size_t n = from; n < chart.size(); ++n) {
-                LimitChart::Numbers numbers{};
-                numbers[n] = 1.0;
-                const double gradient = add(numbers).gradient;
                 const double value = chart.values()[n];
                 constexpr double kAt = 1e-12;
-                const bool is_stopped = (value <= chart.low()[n] + kAt && gradient > 0.0) ||
-                                        (value >= chart.high()[n] - kAt && gradient < 0.0);
+                const bool is_stopped = (value <= chart.low()[n] + kAt && d.gradient > 0.0) ||
+                                        (value >= chart.high()[n] - kAt && d.gradient < 0.0);
                 if (!is_stopped) ++count_;
             }
         }
@@ -296,6 +291,7 @@ private:
     HessianRow step_{}, inverse_{};  ///< of the diagonal
     std::size_t links_;              ///< those that move the tip or turn it as wanted
     std::size_t count_ = 0, first_ = 0;
+    Measured at_;
     double spring_ = 0.0, damping_ = 0.0;
     std::uint32_t tried_ = 0;
 };

@@ -32,7 +32,7 @@ double inverse_or_zero(double number) {
 }  // namespace
 
 bool LimitChart::begin(const IkLink& link) {
-    rest_frame_ = link.rest_frame;
+    rest_frame_ = glm::dquat(1.0, 0.0, 0.0, 0.0);
     frame_ = link.frame;
     kind_ = Kind::free;
     size_ = link.is_fixed ? 0 : 3;
@@ -42,6 +42,7 @@ bool LimitChart::begin(const IkLink& link) {
     const Constraint& constraint = *link.constraint;
     if (constraint.has_soft_zone) return false;
     const LimitShape& shape = constraint.shape;
+    if (constraint.model() != ConstraintModel::free) rest_frame_ = link.rest_frame;
     const auto put_angle = [&](std::size_t to, const AngleRange& range) {
         if (range.half >= trig::kPi) return;
         low_[to] = range.middle - range.half;
@@ -112,10 +113,10 @@ std::array<glm::dvec3, 3> LimitChart::axes() const {
         case Kind::free:
             return {unit_axis(0), unit_axis(1), unit_axis(2)};
         case Kind::hinge:
-            found[0] = rest_frame_ * unit_axis(0);
+            found[0] = unit_axis(0);
             return found;
         case Kind::euler: {
-            glm::dquat outer = rest_frame_;
+            glm::dquat outer(1.0, 0.0, 0.0, 0.0);
             for (std::size_t i = 0; i < 3; ++i) {
                 found[i] = outer * unit_axis(order_[i]);
                 outer = outer * about(order_[i], values_[i]);
@@ -125,10 +126,10 @@ std::array<glm::dvec3, 3> LimitChart::axes() const {
         default: {
             const double y = values_[0], z = values_[1];
             const double size = 1.0 + y * y + z * z;
-            const glm::dquat swing = glm::dquat(1.0, 0.0, y, z) / std::sqrt(size);
-            found[0] = rest_frame_ * (glm::dvec3(-z, 1.0, 0.0) * (2.0 / size));
-            found[1] = rest_frame_ * (glm::dvec3(y, 0.0, 1.0) * (2.0 / size));
-            found[2] = rest_frame_ * (swing * unit_axis(0));
+            const double part = 2.0 / size;
+            found[0] = glm::dvec3(-z, 1.0, 0.0) * part;
+            found[1] = glm::dvec3(y, 0.0, 1.0) * part;
+            found[2] = glm::dvec3(part - 1.0, z * part, -y * part);
             return found;
         }
     }
@@ -153,7 +154,10 @@ glm::dquat LimitChart::rotation() const {
     if (kind_ == Kind::hinge) return about(0, values_[0]);
     if (kind_ == Kind::euler)
         return about(order_[0], values_[0]) * about(order_[1], values_[1]) * about(order_[2], values_[2]);
-    return glm::normalize(glm::dquat(1.0, 0.0, values_[0], values_[1])) * about(0, values_[2]);
+    const double y = values_[0], z = values_[1], part = 1.0 / std::sqrt(1.0 + y * y + z * z);
+    const trig::SinCos twist = trig::sin_cos(0.5 * values_[2]);
+    const double c = twist.cos * part, s = twist.sin * part;
+    return {c, s, y * c + z * s, z * c - y * s};
 }
 
 LimitChart::Edge LimitChart::edge() const {

@@ -45,8 +45,10 @@ public:
         return kind_ != Kind::free && is_angle && !(high_[number] < std::numeric_limits<double>::infinity());
     }
 
-    /// Returns the link's angular velocities, in its parent's space, as each number grows.
+    /// Returns the link's angular velocities, in the space of `basis`, as each number grows.
     [[nodiscard]] std::array<glm::dvec3, 3> axes() const;
+    /// Returns the rotation from that space to that of the link's parent.
+    [[nodiscard]] const glm::dquat& basis() const { return rest_frame_; }
     /// Changes the numbers by a step, moves them inside the limits, and returns the link's rotation.
     glm::dquat move(const Numbers& step);
     /// Returns to other numbers of this chart.
