@@ -39,7 +39,7 @@ public:
         if (problem_.is_reached() && !problem_.stays_close) return 0;
         constexpr double kStiff = 3.0, kClose = 1e-3;
         constexpr std::uint32_t kFew = 16;
-        const double looser = best ? 0.1 : most < kFew ? 0.03 : 0.3;
+        const double looser = best ? 0.1 : most < kFew ? 0.03 : 0.5;
         constexpr double kSettled = 1e-3;  // radians
         at_ = measure();
         const double off = at_.cost;
@@ -61,7 +61,7 @@ public:
     }
 
 private:
-    static constexpr double kSmall = 1e-4;  ///< radians
+    static constexpr double kSmall = 1e-5;  ///< radians
 
     /// Returns the weakest springs: the farther the target remains, the more the tip may miss it by for them.
     [[nodiscard]] double last_spring() const { return std::clamp(0.03 * at_.cost, 1e-6, 1e-2); }
@@ -110,9 +110,13 @@ private:
     double descend() {
         constexpr double kFirst = 1e-3, kLargest = 1e3;
         bool is_whole = true;
+        fill(true);
         for (;;) {
-            if (is_whole && !find_step(true)) is_whole = false;
-            if (!is_whole) (void)find_step(false);
+            if (!find_step(is_whole)) {
+                is_whole = false;
+                fill(false);
+                (void)find_step(false);
+            }
             const double largest = take_step();
             const Measured now = measure();
             ++tried_;
@@ -134,7 +138,7 @@ private:
         glm::dvec3 strain;              ///< what it costs
         glm::dvec3 axis;                ///< angular velocity in base space
         glm::dvec3 slope;               ///< velocity of the tip
-        glm::dvec3 bending;             ///< its part of the second derivative: see fill
+        glm::dvec3 pull;                ///< its part of the second derivative: see fill
         double gradient, size, bend;
     };
 
@@ -188,23 +192,26 @@ private:
                 if (!is_stopped) ++count_;
             }
         }
-        fill(off, wp, wr);
     }
 
-    /// Fills the Hessian: of the distance without the bend of the tip's path, and that bend, off . (outer x slope).
-    void fill(const glm::dvec3& off, double wp, double wr) {
-        for (std::size_t i = 0; i < count_; ++i) directions_[i].bending = glm::cross(off, directions_[i].axis);
+    /// Fills the Hessian: of the distance without the bend of the tip's path, and that bend, off . (outer x slope), if
+    /// it is to be whole.
+    void fill(bool is_whole) {
+        const double wp = problem_.position_weight;
+        const double wr = problem_.has_rotation ? problem_.rotation_weight : 0.0;
+        const glm::dvec3 off = wp * (problem_.tip - problem_.target);
         for (std::size_t j = 0; j < count_; ++j) {
-            const Direction& inner = directions_[j];
+            Direction& inner = directions_[j];
+            inner.pull = wp * inner.slope;
+            if (is_whole) inner.pull += glm::cross(off, inner.axis);
             for (std::size_t i = 0; i <= j; ++i) {
                 const Direction& outer = directions_[i];
-                double h = wp * glm::dot(outer.slope, inner.slope);
-                bends_[j][i] = glm::dot(outer.bending, inner.slope);
+                double h = glm::dot(outer.pull, inner.slope);
                 if (wr > 0.0) h += wr * glm::dot(outer.axis, inner.axis);
                 if (outer.link == inner.link) h += bends_of_springs_[inner.link] * glm::dot(outer.strain, inner.strain);
                 hessian_[j][i] = h;
             }
-            bends_[j][j] += inner.bend;
+            if (is_whole) hessian_[j][j] += inner.bend;
         }
     }
 
@@ -214,11 +221,11 @@ private:
         for (std::size_t j = 0; j < count_; ++j) {
             HessianRow& row = root_[j];
             for (std::size_t i = 0; i < j; ++i) {
-                double sum = hessian_[j][i] + (is_whole ? bends_[j][i] : 0.0);
+                double sum = hessian_[j][i];
                 for (std::size_t k = 0; k < i; ++k) sum -= row[k] * root_[i][k];
                 row[i] = sum;
             }
-            double sum = hessian_[j][j] + (is_whole ? bends_[j][j] : 0.0) + damping_ * directions_[j].size;
+            double sum = hessian_[j][j] + damping_ * directions_[j].size;
             for (std::size_t i = 0; i < j; ++i) {
                 const double part = row[i] * inverse_[i];
                 sum -= part * row[i];
@@ -287,7 +294,7 @@ private:
     std::array<LimitChart::Numbers, kMostLinks> before_;
     std::array<double, kMostLinks> bends_of_springs_;
     std::array<Direction, kMostNumbers> directions_;
-    std::array<HessianRow, kMostNumbers> hessian_, bends_, root_;
+    std::array<HessianRow, kMostNumbers> hessian_, root_;
     HessianRow step_{}, inverse_{};  ///< of the diagonal
     std::size_t links_;              ///< those that move the tip or turn it as wanted
     std::size_t count_ = 0, first_ = 0;
