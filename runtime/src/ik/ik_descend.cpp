@@ -32,7 +32,7 @@ public:
     /// reaches.
     bool descend() {
         const std::span<LimitChart> charts = std::span(charts_).first(links_with_charts_);
-        iterations_ += charts.empty() ? solve_least_squares(problem_) : solve_newton(problem_, charts, most(), best_);
+        iterations_ += charts.empty() ? solve_least_squares(problem_) : solve_newton(problem_, charts, most(), !best_);
         consider();
         return problem_.is_reached();
     }

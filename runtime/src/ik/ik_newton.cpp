@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <span>
 
 // Newton's method in the coordinates in which limits are intervals: a projected Newton method with an active set
@@ -34,22 +33,21 @@ public:
     }
 
     /// See solve_newton.
-    std::uint32_t run(std::uint32_t most, const std::optional<double>& best) {
+    std::uint32_t run(std::uint32_t most, bool is_first) {
         for (std::size_t i = 0; i < links_; ++i) charts_[i].read(problem_.links[i]);
         if (problem_.is_reached() && !problem_.stays_close) return 0;
         constexpr double kStiff = 3.0, kClose = 1e-3;
         constexpr std::uint32_t kFew = 16;
-        const double looser = best ? 0.1 : most < kFew ? 0.03 : 0.5;
+        const double looser = !is_first ? 0.1 : most < kFew ? 0.03 : 0.5;
         constexpr double kSettled = 1e-3;  // radians
         at_ = measure();
         const double off = at_.cost;
         // Weaker, the nearer the target is.
-        spring_ = std::max(last_spring(), std::min(kStiff, (best ? 0.3 : 3.0) * off * std::sqrt(off)));
+        spring_ = std::max(last_spring(), std::min(kStiff, (is_first ? 3.0 : 0.3) * off * std::sqrt(off)));
         if (problem_.stays_close) spring_ = kClose;
         while (tried_ < most) {
             linearise();
             const double largest = descend();
-            if (best && is_hopeless(*best)) break;
             const double last = last_spring();
             if (spring_ > last) {
                 spring_ = std::max(last, spring_ * looser);
@@ -65,13 +63,6 @@ private:
 
     /// Returns the weakest springs: the farther the target remains, the more the tip may miss it by for them.
     [[nodiscard]] double last_spring() const { return std::clamp(0.03 * at_.cost, 1e-6, 1e-2); }
-
-    /// Returns true if a better end than one of this cost is no longer likely.
-    [[nodiscard]] bool is_hopeless(double best) const {
-        constexpr std::uint32_t kTries = 5;
-        constexpr double kNear = 1e-3;
-        return tried_ >= kTries && at_.cost > 2.0 * best + kNear;
-    }
 
     /// Returns a rotation vector in the space of the link's parent as what it costs: the less a joint is free about an
     /// axis, the more.
@@ -305,10 +296,9 @@ private:
 
 }  // namespace
 
-std::uint32_t solve_newton(IkProblem& problem, std::span<LimitChart> charts, std::uint32_t most,
-                           const std::optional<double>& best) {
+std::uint32_t solve_newton(IkProblem& problem, std::span<LimitChart> charts, std::uint32_t most, bool is_first) {
     if (problem.iterations != 0) most = std::min(problem.iterations, most);
-    return Newton(problem, charts).run(most, best);
+    return Newton(problem, charts).run(most, is_first);
 }
 
 }  // namespace bendy

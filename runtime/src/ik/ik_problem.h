@@ -9,7 +9,6 @@
 #include "math/rotation.h"
 #include "pose/pose_state.h"
 
-#include <optional>
 #include <span>
 
 // A chain as the solvers see it: in the space of the start's parent ("base space"), with lengths in chain lengths.
@@ -141,11 +140,9 @@ bool prefers_back(const Constraint* constraint);
 std::uint32_t solve_aim(IkProblem& problem);
 std::uint32_t solve_least_squares(IkProblem& problem);
 /// For a chain all of whose links have charts: see ik_newton.cpp.
-/// \param most  iterations
-/// \param best  the cost after another descent, if there was one: this one starts with weaker springs, and gives up
-///              where it is unlikely to be better
-std::uint32_t solve_newton(IkProblem& problem, std::span<LimitChart> charts, std::uint32_t most,
-                           const std::optional<double>& best);
+/// \param most      iterations
+/// \param is_first  otherwise it begins with weaker springs
+std::uint32_t solve_newton(IkProblem& problem, std::span<LimitChart> charts, std::uint32_t most, bool is_first);
 /// Solves from the pose at hand, or in closed form, and if that does not reach, from other starts: see ik_descend.cpp.
 std::uint32_t solve_from(IkProblem& problem, bool is_closed);
 /// Solves from where the links are, close to there, and does not try other starts.
