@@ -27,25 +27,25 @@ using HessianRow = std::array<double, kMostNumbers>;
 
 class Newton {
 public:
-    Newton(IkProblem& problem, std::span<LimitChart> charts)
-        : problem_(problem), charts_(charts), links_(charts.size()) {
+    Newton(IkProblem& problem, std::span<LimitChart> charts, std::uint32_t most)
+        : problem_(problem), charts_(charts), most_(most), links_(charts.size()) {
         while (!problem.has_rotation && links_ > 0 && problem.links[links_ - 1].bone_length == 0.0) --links_;
     }
 
     /// See solve_newton.
-    std::uint32_t run(std::uint32_t most, bool is_first) {
+    std::uint32_t run(bool is_first) {
         for (std::size_t i = 0; i < links_; ++i) charts_[i].read(problem_.links[i]);
         if (problem_.is_reached() && !problem_.stays_close) return 0;
         constexpr double kStiff = 3.0, kClose = 1e-3;
         constexpr std::uint32_t kFew = 16;
-        const double looser = !is_first ? 0.1 : most < kFew ? 0.03 : 0.5;
+        const double looser = !is_first ? 0.1 : most_ < kFew ? 0.03 : 0.5;
         constexpr double kSettled = 1e-3;  // radians
         at_ = measure();
         const double off = at_.cost;
         // Weaker, the nearer the target is.
         spring_ = std::max(last_spring(), std::min(kStiff, (is_first ? 3.0 : 0.3) * off * std::sqrt(off)));
         if (problem_.stays_close) spring_ = kClose;
-        while (tried_ < most) {
+        while (tried_ < most_) {
             linearise();
             const double largest = descend();
             const double last = last_spring();
@@ -117,7 +117,7 @@ private:
                 return largest;
             }
             take_back();
-            if (largest < kSmall || damping_ > kLargest) return 0.0;
+            if (largest < kSmall || damping_ > kLargest || tried_ >= most_) return 0.0;
             damping_ = std::max(kFirst, 10.0 * damping_);
         }
     }
@@ -282,6 +282,7 @@ private:
 
     IkProblem& problem_;
     std::span<LimitChart> charts_;
+    std::uint32_t most_;  ///< steps, those that are taken back among them
     std::array<LimitChart::Numbers, kMostLinks> before_;
     std::array<double, kMostLinks> bends_of_springs_;
     std::array<Direction, kMostNumbers> directions_;
@@ -298,7 +299,7 @@ private:
 
 std::uint32_t solve_newton(IkProblem& problem, std::span<LimitChart> charts, std::uint32_t most, bool is_first) {
     if (problem.iterations != 0) most = std::min(problem.iterations, most);
-    return Newton(problem, charts).run(most, is_first);
+    return Newton(problem, charts, most).run(is_first);
 }
 
 }  // namespace bendy

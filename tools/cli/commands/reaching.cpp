@@ -137,7 +137,7 @@ void add_reach(CLI::App& command, ReachRequest& request) {
         .add_option(
             "--solver", request.solver,
             "for --reach; chain: the solver that the file names. pull makes a single step towards the target in "
-            "each pose; the others finish")
+            "each pose; the others finish, ccd and fabrik as least_squares")
         ->check(one_of(solver_names()))
         ->capture_default_str()
         ->needs(reach);
