@@ -563,6 +563,22 @@ TEST(AutoRig, AControlWithABonesNameIsNotTheBone) {
     EXPECT_TRUE(rigged.scene.joints[rigged.joint("HEAD")].constraints.empty());
 }
 
+TEST(AutoRig, WhatHangsOnAControlBesideTheBodyGetsNoLimit) {
+    HumanoidGltf character;
+    character.add("root", "", {0, 0, 0});
+    character["hips"].parent = "root";
+    for (const char* leg : {"leftUpperLeg", "rightUpperLeg"}) character[leg].parent = "root";
+    const Rigged rigged = rig(character);
+    EXPECT_EQ(rigged.scene.chains.size(), 6u);
+    EXPECT_EQ(rigged.limited(), 18u);
+    EXPECT_TRUE(rigged.scene.joints[rigged.joint("leftUpperLeg")].constraints.empty());
+    EXPECT_FALSE(rigged.scene.joints[rigged.joint("leftLowerLeg")].constraints.empty());
+    ASSERT_EQ(rigged.report.warnings().size(), 1u);
+    EXPECT_EQ(rigged.report.warnings().front().message,
+              "auto-rig: no limit proposed, since the joint hangs beside hips, not below it");
+    EXPECT_EQ(rigged.report.warnings().front().count, 2u);
+}
+
 TEST(AutoRig, StrangeScalesCrashNothing) {
     for (const double scale : {0.0, -1.0, 1e30, 1e-30}) {
         Gltf gltf = HumanoidGltf().build();

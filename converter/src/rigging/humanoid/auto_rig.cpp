@@ -287,6 +287,41 @@ void add_limits(Scene& scene, const RestFrames& rest, const ClipRotations& clips
     }
 }
 
+/// The joint of a human below which a joint is to hang, so that a limit about its parent is one about the body.
+std::uint32_t carrier_of(const Humanoid& bones, const JointAnatomy& one) {
+    const auto bone = [&](HumanBone left) { return bones[one.is_right ? mirrored(left) : left]; };
+    switch (one.part) {
+        case BodyJoint::knee:
+            return bone(HumanBone::left_upper_leg);
+        case BodyJoint::ankle:
+            return bone(HumanBone::left_lower_leg);
+        case BodyJoint::toes:
+            return bone(HumanBone::left_foot);
+        case BodyJoint::elbow:
+            return bone(HumanBone::left_upper_arm);
+        case BodyJoint::wrist:
+            return bone(HumanBone::left_lower_arm);
+        case BodyJoint::hip:
+        case BodyJoint::spine:
+            return bones[HumanBone::hips];
+        default:
+            return bones.has(HumanBone::spine) ? bones[HumanBone::spine] : bones[HumanBone::hips];
+    }
+}
+
+/// Takes out the joints that hang on a control beside the body, which does not turn with it.
+void leave_out_loose(const Scene& scene, const RestFrames& rest, const Humanoid& bones,
+                     std::vector<JointAnatomy>& anatomy, Report& report) {
+    std::erase_if(anatomy, [&](const JointAnatomy& one) {
+        const std::uint32_t carrier = carrier_of(bones, one);
+        if (carrier == kNone || one.joint == carrier || rest.is_below(one.joint, carrier)) return false;
+        report.warn(
+            "auto-rig: no limit proposed, since the joint hangs beside " + name_of(scene, carrier) + ", not below it",
+            name_of(scene, one.joint));
+        return true;
+    });
+}
+
 /// The animal's axes where they are at rest, if it was found in another pose.
 Stance at_rest(const RestFrames& rest, const RestFrames& pose, const Animal& animal) {
     const std::uint32_t joint = animal.legs.front().front();
@@ -338,8 +373,9 @@ void rig_human(Scene& scene, const RestFrames& rest, const ClipRotations& clips,
     const std::optional<Posture> resting = measure_posture(rest, found);
     if (!resting || !resting->is_upright || !resting->has_feet_forward)
         return report.warn("auto-rig: limits are about the rest pose, which is not that of a body here, none proposed");
-    add_limits(scene, rest, clips, find_anatomy(scene, rest, found, resting->stance), resting->stance.left, "a human's",
-               claimed, report);
+    std::vector<JointAnatomy> anatomy = find_anatomy(scene, rest, found, resting->stance);
+    leave_out_loose(scene, rest, found.bones, anatomy, report);
+    add_limits(scene, rest, clips, anatomy, resting->stance.left, "a human's", claimed, report);
 }
 
 }  // namespace
