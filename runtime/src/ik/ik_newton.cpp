@@ -160,9 +160,10 @@ private:
                 d.link = i;
                 d.numbers = {};
                 d.numbers[n] = 1.0;
-                if (is_at_edge)
+                if (is_at_edge) {
                     d.numbers =
                         n == 0 ? LimitChart::Numbers{edge.y, edge.z, 0.0} : LimitChart::Numbers{-edge.z, edge.y, 0.0};
+                }
                 const glm::dvec3 by = d.numbers[0] * axes[0] + d.numbers[1] * axes[1] + d.numbers[2] * axes[2];
                 d.strain = is_free ? by : strain(link, chart.basis() * by);
                 d.axis = space * by;

@@ -214,6 +214,7 @@ private:
         close();
         taken_.reads.insert(taken_.reads.end(), files.begin(), files.end());
         std::vector<Step> all;
+        all.reserve(files.size());
         for (const std::filesystem::path& file : files)
             all.push_back(step_with(file, "retargeting", retargeting(file, options)));
         taken_.steps.emplace_back([all, folder](Bytes bytes, EditReport& report) -> Result<Buffer, Failure> {

@@ -40,6 +40,7 @@ public:
     Jobs& operator=(const Jobs&) = delete;
     Jobs(Jobs&&) = delete;
     Jobs& operator=(Jobs&&) = delete;
+    virtual ~Jobs() = default;
 
 protected:
     using WriteLock = std::shared_lock<std::shared_mutex>;
@@ -48,7 +49,6 @@ protected:
     /// \param doing  for the progress bar, as in "converting"
     /// \param shows  false: there is no bar
     Jobs(const std::string& doing, bool shows) : bar_(doing), shows_(shows) {}
-    virtual ~Jobs() = default;
 
     /// Does all jobs and returns; after an interrupt, ends the program between two outputs.
     /// \param inputs   of the jobs, one each: the bar goes by their sizes

@@ -56,8 +56,9 @@ Cycle find_cycle(const ClipKeys& clip) {
     const double length = double{clip.end} - clip.start;
     const double step = 1.0 / kRate;
     std::vector<Rotations> samples;
-    for (double at = 0.0; at <= std::min(length, kLongest); at += step)
-        samples.push_back(rotations_at(clip, clip.start + at));
+    const auto count = static_cast<std::size_t>(std::min(length, kLongest) * kRate) + 1;
+    for (std::size_t k = 0; k < count; ++k)
+        samples.push_back(rotations_at(clip, clip.start + static_cast<double>(k) * step));
     const std::vector<double> by_shift = differences(samples);
     const double alike =
         kAlike * std::accumulate(by_shift.begin(), by_shift.end(), 0.0) / static_cast<double>(by_shift.size());

@@ -285,9 +285,9 @@ private:
     [[nodiscard]] std::vector<glm::dvec3> places_of(const ClipTrack& track, const Affine& movement,
                                                     double length) const {
         constexpr double kPlacesPerSecond = 240.0, kMost = 1e6;
-        const double steps = std::clamp(std::ceil(length * kPlacesPerSecond), 2.0, kMost);
+        const auto steps = static_cast<std::uint32_t>(std::clamp(std::ceil(length * kPlacesPerSecond), 2.0, kMost));
         std::vector<glm::dvec3> places;
-        for (double k = 0.0; k <= steps; ++k) {
+        for (std::uint32_t k = 0; k <= steps; ++k) {
             std::array<double, 3> value{};
             sample(track, clip_.start + length * k / steps, value);
             places.push_back(movement.matrix * glm::dvec3(value[0], value[1], value[2]) + movement.shift);

@@ -464,8 +464,7 @@ bool has_four_legs(const Model& model) {
 
 /// The clips, by the rest poses that options name or, if they leave the choice, by those that bring feet nearer.
 Result<Transfer, Problem> transfer_clips(Retarget retarget, const std::vector<std::size_t>& clips,
-                                         const RetargetClips& options, Log& log,
-                                         std::vector<RetargetedClip>* numbers) {
+                                         const RetargetClips& options, Log& log, std::vector<RetargetedClip>* numbers) {
     const Model source = retarget.source(), target = retarget.target();
     const auto take = [&](ClipRetargeting& one, const Log& said) {
         log.done.insert(log.done.end(), said.done.begin(), said.done.end());
