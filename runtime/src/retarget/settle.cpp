@@ -8,6 +8,8 @@
 #include "math/rotation.h"
 #include "pose/pose_state.h"
 
+#include <bendy/format/trig.h>
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -127,7 +129,7 @@ private:
         if (is_held) to_.set_rotation(moved.joint, glm::quat(glm::normalize(glm::conjugate(actual_space) * wanted)));
         if (twist != 0.0) {
             const glm::dquat turned = glm::dquat(to_.local_of(moved.joint).rotation) *
-                                      glm::angleAxis(twist, plan_.limbs[moved.limb].upper_bone);
+                                      from_vector(twist * plan_.limbs[moved.limb].upper_bone);
             to_.set_rotation(moved.joint, glm::quat(glm::normalize(turned)));
         }
         const double outside = moved.constraint == nullptr ? 0.0 : constrain_far(moved);
@@ -156,8 +158,8 @@ private:
         const glm::dvec3 legal = glm::dquat(to_.local_of(limb.lower).rotation) * limb.lower_bone;
         to_.set_local(limb.lower, before);
         const double off = glm::length(legal - wanted);
-        const double angle = std::atan2(glm::dot(limb.upper_bone, glm::cross(limb.lower_side, across)),
-                                        glm::dot(limb.lower_side, across));
+        const double angle = trig::atan2(glm::dot(limb.upper_bone, glm::cross(limb.lower_side, across)),
+                                         glm::dot(limb.lower_side, across));
         const double share = smooth(bent, kBent[0], kBent[1]) * (1.0 - smooth(std::abs(angle), kBehind[0], kBehind[1]));
         return angle * share * off * off / (off * off + kSlack * kSlack);
     }
@@ -174,14 +176,14 @@ private:
         const glm::dquat back = glm::conjugate(glm::dquat(plan_.target.joints()[constraint.joint].rest.rotation));
         const auto turn_of = [&](const glm::dquat& rotation) {
             const glm::dquat turn = back * rotation;
-            return 2.0 * std::atan2(glm::dot(glm::dvec3(turn.x, turn.y, turn.z), axis), turn.w);
+            return 2.0 * trig::atan2(glm::dot(glm::dvec3(turn.x, turn.y, turn.z), axis), turn.w);
         };
         const glm::dquat now(to_.local_of(constraint.joint).rotation);
         const double turn = std::remainder(turn_of(now), kFullTurn);
         const double beyond = std::abs(std::remainder(turn_of(wanted) - turn, kFullTurn));
         if (beyond <= kFarBeyond) return;
         const double share = std::min(1.0, (beyond - kFarBeyond) / (kMostBeyond - kFarBeyond));
-        to_.set_rotation(constraint.joint, glm::quat(glm::normalize(now * glm::angleAxis(-share * turn, axis))));
+        to_.set_rotation(constraint.joint, glm::quat(glm::normalize(now * from_vector(-share * turn * axis))));
         (void)constrain(constraint);
     }
 

@@ -3,6 +3,7 @@
 #include <bendy/edit/edit.h>
 #include <bendy/format/diagnostics.h>
 #include <bendy/format/standing_pose.h>
+#include <bendy/format/trig.h>
 #include <bendy/runtime.h>
 
 #include <glm/geometric.hpp>
@@ -79,7 +80,7 @@ double heading_of(const StandingPoseRecord& record) {
     constexpr double kStraight = 0.35;  // radians
     const auto& [x, y, z, w] = record.axes;
     const glm::dvec3 front(glm::quat(w, x, y, z) * glm::vec3(0.0f, 0.0f, 1.0f));
-    const double angle = std::atan2(front.x, front.z);
+    const double angle = trig::atan2(front.x, front.z);
     return std::abs(angle) < kStraight ? 0.0 : angle;
 }
 
@@ -104,7 +105,8 @@ public:
     [[nodiscard]] Edited write_to_front(Bytes file, edit::Log& log) const {
         const auto record = measured(file);
         if (!record) return record.error();
-        const glm::dquat to_front = glm::angleAxis(-heading_of(*record), glm::dvec3(0.0, 1.0, 0.0));
+        const trig::SinCos half = trig::sin_cos(-0.5 * heading_of(*record));
+        const glm::dquat to_front(half.cos, 0.0, half.sin, 0.0);
         Turned front;
         for (std::size_t k = 0; k < turns_.size(); ++k) front.add(rotations_[k].joint, to_front * turns_[k]);
         return front.write(file, log);
