@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-// What `bendy edit` does with one file, and with many.
+// `bendy edit`: the steps that its options make, and how they are applied to one file or to several.
 namespace bendy::tools {
 
 struct EditArguments {
@@ -33,7 +33,7 @@ struct EditArguments {
     unsigned jobs = 0;  ///< 0: one per processor
 };
 
-/// What is to be told of a file, and which files were read for it besides itself.
+/// The report on one file, and the other files that were read for it.
 struct EditReport {
     edit::Log log;
     std::vector<std::pair<std::string, motion::RetargetedClip>> clips;  ///< and the files that they are from

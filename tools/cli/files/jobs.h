@@ -47,7 +47,7 @@ protected:
     using Seconds = std::chrono::duration<double>;
 
     /// \param doing  for the progress bar, as in "converting"
-    /// \param shows  false: there is no bar
+    /// \param shows  whether to show the bar
     Jobs(const std::string& doing, bool shows) : bar_(doing), shows_(shows) {}
 
     /// Does all jobs and returns; after an interrupt, ends the program between two outputs.

@@ -86,7 +86,8 @@ bool read_range(std::string_view text, ClipChange& change) {
     return read(text.substr(0, dots), change.from) && read(text.substr(dots + kDots.size()), change.to);
 }
 
-/// Reads CLIP or CLIP@SECONDS, with seconds above 0; what follows the last @ belongs to the name if it is no number.
+/// Reads CLIP or CLIP@SECONDS, with seconds above 0. If what follows the last @ is not a number, it is part of the
+/// name.
 bool read_on_the_spot(std::string_view text, ClipChange& change) {
     const auto parts = split_change(text, '@');
     const auto seconds = parts ? read_number(parts->second) : std::nullopt;

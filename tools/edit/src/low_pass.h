@@ -7,9 +7,9 @@
 
 namespace bendy::edit {
 
-/// What is left of a motion if all that goes to and fro within a window is taken out: the mean over the window around
-/// each time. Beyond its ends the motion goes on: if it repeats, from where it ends; otherwise, and if it does not go
-/// the same way at both ends, turned about its end.
+/// A moving average of a motion: the mean over a window centred on each time, which removes what oscillates within it.
+/// Beyond its ends the motion goes on: if it repeats, from where it ends; otherwise, and if it does not go the same way
+/// at both ends, turned about its end.
 class LowPass {
 public:
     /// \param places   at least two, evenly spread over the length

@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <span>
 #include <string>
@@ -104,6 +105,7 @@ public:
 
 private:
     static constexpr std::size_t kMostKnots = 1u << 16u;
+    static constexpr std::uint64_t kMostMoved = std::uint64_t{1} << 33u;  // numbers, to insert keys among others
 
     static std::string with_three_digits(double number) {
         std::array<char, 32> text{};
@@ -266,7 +268,8 @@ private:
                             " m/s, averaged over " + with_three_digits(window) + " s: taken out of joint \"" +
                             name(from_) + '"');
         const std::vector<double> knots = knots_of(path, track, length);
-        if (knots.size() > kMostKnots) return Problem{"its way is too long or too winding; --trim takes a part of it"};
+        if (knots.size() > kMostKnots || std::uint64_t{knots.size()} * track.values.size() > kMostMoved)
+            return Problem{"its way is too long or too winding; --trim takes a part of it"};
         for (const double at : knots) insert_key(track, static_cast<float>(clip_.start + at));
         for (std::size_t k = 0; k < track.times.size(); ++k) {
             const double at = std::clamp(double{track.times[k]} - clip_.start, 0.0, length);
