@@ -109,10 +109,10 @@ TEST_F(CRetarget, PosesAreTheSameAsInCpp) {
         for (const auto& contacts : {std::optional<ContactWeights>{}, {{1.0f, 1.0f, 0.0f, 0.5f}}}) {
             bendy_retargeted result = sized<bendy_retargeted>();
             ASSERT_EQ(bendy_retarget_pose(to.get(), retarget.get(), from.get(), state.get(),
-                                          contacts ? contacts->data() : nullptr, &result, &error_),
+                                          contacts ? contacts->data() : nullptr, 0.02f, &result, &error_),
                       BENDY_OK)
                 << error_.message;
-            const auto expected = bendy::retarget(cpp_to, *cpp, cpp_from, cpp_state, contacts);
+            const auto expected = bendy::retarget(cpp_to, *cpp, cpp_from, cpp_state, contacts, 0.02f);
             EXPECT_TRUE(is_same(to.get(), cpp_to));
             EXPECT_EQ(result.missed, expected->missed);
             EXPECT_EQ(result.turned_joint, expected->turned_joint);
@@ -121,7 +121,7 @@ TEST_F(CRetarget, PosesAreTheSameAsInCpp) {
         // The second frame depends on where the feet stood in the first one; a state that forgets is a new one.
         ASSERT_EQ(bendy_retarget_state_reset(state.get(), nullptr), BENDY_OK);
         cpp_state = {};
-        bendy_retarget_pose(to.get(), retarget.get(), from.get(), state.get(), nullptr, nullptr, nullptr);
+        bendy_retarget_pose(to.get(), retarget.get(), from.get(), state.get(), nullptr, 0.0f, nullptr, nullptr);
         (void)bendy::retarget(cpp_to, *cpp, cpp_from, cpp_state);
         EXPECT_TRUE(is_same(to.get(), cpp_to));
     }
@@ -142,7 +142,8 @@ TEST_F(CRetarget, BadArgumentsAreRefused) {
     const PoseHandle from = new_pose(source_), to = new_pose(target_);
     const auto refused = [&](bendy_pose* pose, bendy_pose* source, bendy_retarget_state* of, const float* contacts) {
         bendy_error error = BENDY_ERROR_INIT;
-        EXPECT_EQ(bendy_retarget_pose(pose, retarget.get(), source, of, contacts, nullptr, &error), BENDY_BAD_ARGUMENT);
+        EXPECT_EQ(bendy_retarget_pose(pose, retarget.get(), source, of, contacts, 0.0f, nullptr, &error),
+                  BENDY_BAD_ARGUMENT);
         return std::string(error.message);
     };
     const std::array<float, kContacts> wrong{0.0f, std::numeric_limits<float>::quiet_NaN(), 0.0f, 0.0f};
@@ -154,8 +155,9 @@ TEST_F(CRetarget, BadArgumentsAreRefused) {
     EXPECT_EQ(refused(to.get(), to.get(), state.get(), nullptr),
               "source is of another model than the source of the retargeting");
     const RetargetHandle to_itself(bendy_retarget_new(source_.get(), source_.get(), nullptr, nullptr));
-    EXPECT_EQ(bendy_retarget_pose(from.get(), to_itself.get(), from.get(), state.get(), nullptr, nullptr, &error_),
-              BENDY_BAD_ARGUMENT);
+    EXPECT_EQ(
+        bendy_retarget_pose(from.get(), to_itself.get(), from.get(), state.get(), nullptr, 0.0f, nullptr, &error_),
+        BENDY_BAD_ARGUMENT);
     EXPECT_EQ(std::string(error_.message), "source is the pose itself");
     bendy_retarget_options options = BENDY_RETARGET_OPTIONS_INIT;
     options.rest_poses = 2;
@@ -176,7 +178,7 @@ TEST_F(CRetarget, KeepsItsModelsAndAllocatesNothingPerFrame) {
     source.reset();
     target.reset();
     restart_count();
-    EXPECT_EQ(bendy_retarget_pose(to.get(), retarget.get(), from.get(), state.get(), nullptr, nullptr, nullptr),
+    EXPECT_EQ(bendy_retarget_pose(to.get(), retarget.get(), from.get(), state.get(), nullptr, 0.0f, nullptr, nullptr),
               BENDY_OK);
     EXPECT_EQ(allocations().count, 0u);
 }

@@ -577,6 +577,106 @@ TEST(Retarget, FeetOfACrouchingBodyDoNotSinkIntoTheGround) {
     }
 }
 
+/// A human with soles, palms, and a seat so far below the hips; they are triangles of their joints.
+test::PosedBody<HumanModel> with_skin(HumanSpec human, double seat, double palm) {
+    human.axes = 0;
+    HumanModel model(human);
+    const auto triangle = [&](const std::string& joint, const glm::vec3& place) {
+        const glm::vec3 x(0.1f, 0, 0), z(0, 0, 0.1f);
+        model.spec.meshes.push_back({model.joint(joint), {place + x, place - x, place - z}, {}, {}, {0, 1, 2}, {}});
+    };
+    triangle("hips", {0, -seat, 0});
+    for (const char* side : {"left", "right"}) {
+        triangle(std::string(side) + "Foot", {0, -0.08, 0});
+        triangle(std::string(side) + "Hand", {0, -palm, 0});
+    }
+    return {std::move(model), 0.0};
+}
+
+TEST(Retarget, WhoSitsIsOnTheGroundHoweverThick) {
+    auto source = with_skin({}, 0.1, 0.03), target = with_skin({.thigh = 0.5, .shin = 0.35}, 0.25, 0.03);
+    Retarget retargeted = made(source, target), free = made(source, target, kDirections);
+    const auto seat_at = [&](Retarget& retarget, double height) {  // of the source's seat above the ground
+        source.pose().set_rest();
+        for (const char* side : {"left", "right"}) source.turn_by(std::string(side) + "UpLeg", {1, 0, 0}, -90.0);
+        test::local_of(source.pose(), source.joint("hips"))->translation.y +=
+            static_cast<float>(height + 0.1 - source.place("hips").y);
+        RetargetState state;
+        const auto done = bendy::retarget(target.pose(), retarget, source.pose(), state);
+        EXPECT_TRUE(done);
+        const float contact = done->contacts[static_cast<std::size_t>(Contact::body)];
+        EXPECT_EQ(contact, &retarget == &free || height > 0.4 ? 0.0f : height < 0.1 ? 1.0f : contact);
+        return target.place("hips").y - 0.25;
+    };
+    EXPECT_NEAR(seat_at(retargeted, 0.0), 0.0, 1e-4);
+    EXPECT_NEAR(seat_at(retargeted, -0.1), 0.0, 1e-4);
+    EXPECT_LT(seat_at(free, 0.0), -0.1);
+    EXPECT_EQ(seat_at(retargeted, 0.6), seat_at(free, 0.6));
+    double last = seat_at(retargeted, 0.0);
+    for (int step = 1; step <= 60; ++step) {
+        const double now = seat_at(retargeted, 0.01 * step);
+        EXPECT_LT(std::abs(now - last), 0.035) << step;
+        last = now;
+    }
+}
+
+TEST(Retarget, HandsOnTheGroundStayWhereTheyAre) {
+    auto source = with_skin({}, 0.1, 0.03), target = with_skin({.thigh = 0.43, .shin = 0.4}, 0.1, 0.05);
+    Retarget retargeted = made(source, target);
+    RetargetState state;
+    glm::dvec3 laid{0.0};
+    for (int frame = 0; frame < 40; ++frame) {
+        source.pose().set_rest();
+        source.turn_by("hips", {1, 0, 0}, 80.0);  // face down, the arms towards the ground
+        for (const double side : {1.0, -1.0}) {
+            const std::string name = side > 0.0 ? "left" : "right";
+            source.turn_by(name + "Arm", {0, 0, 1}, -side * (80.0 + std::sin(0.1 * frame)));
+            source.level(name + "Hand");
+            source.turn_by(name + "UpLeg", {1, 0, 0}, -10.0);
+        }
+        test::local_of(source.pose(), source.joint("hips"))->translation.y +=
+            static_cast<float>(0.03 - source.place("leftHand").y);
+        ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+        const glm::dvec3 hand = target.place("leftHand");
+        EXPECT_NEAR(hand.y, 0.05, 1e-3) << frame;
+        if (frame == 0) laid = hand - source.place("leftHand") * double{retargeted.scale()};
+        const glm::dvec3 slid = hand - source.place("leftHand") * double{retargeted.scale()} - laid;
+        EXPECT_LT(std::hypot(slid.x, slid.z), 1e-3) << frame;
+    }
+}
+
+TEST(Retarget, AJointThatJumpsTurnsQuicklyIfItIsKnownHowLongTheFrameTook) {
+    ConstraintRecord bend;
+    bend.model = static_cast<std::uint8_t>(ConstraintModel::swing_twist_pyramid);
+    bend.rotation_min = {-kInf, -1.0f, -0.3f};
+    bend.rotation_max = {kInf, 1.0f, 0.3f};
+    Human source(HumanSpec{.axes = 0}), target(HumanSpec{.axes = 0, .elbows = {bend}});
+    Retarget retarget = made(source, target, {RestPoses::measured, Limits::hard, false});
+    const auto largest_step = [&](float seconds) {
+        RetargetState state;
+        double step = 0.0, left = 0.0;
+        glm::dquat last(1, 0, 0, 0);
+        for (int frame = 0; frame <= 80; ++frame) {
+            source.pose().set_rest();
+            source.turn_by("leftForeArm", glm::dvec3(0, 1, 0), 160.0 + std::min(frame, 40));
+            EXPECT_TRUE(bendy::retarget(target.pose(), retarget, source.pose(), state, std::nullopt, seconds));
+            const glm::quat local = target.pose().local(target.joint("leftForeArm")).rotation;
+            if (frame > 0) step = std::max(step, angle_of(last, glm::dquat(local)));
+            last = glm::dquat(local);
+            const Constraint& limit = *target.model().constraint(target.joint("leftForeArm"));
+            const glm::quat& rest = target.model().joints()[limit.joint].rest.rotation;
+            EXPECT_LT(violation(limit, to_constraint_space(limit, rest, local)), 1e-5);
+        }
+        RetargetState other;
+        EXPECT_TRUE(bendy::retarget(target.pose(), retarget, source.pose(), other));
+        left = angle_of(last, glm::dquat(target.pose().local(target.joint("leftForeArm")).rotation));
+        EXPECT_LT(left, 1e-5);
+        return step;
+    };
+    EXPECT_GT(largest_step(0.0f), 1.0);
+    EXPECT_LT(largest_step(1.0f / 60.0f), kTurnSpeed / 60.0 + kOfSource * M_PI / 180.0 + 1e-4);
+}
+
 TEST(Retarget, FeetStandWhereTheyAre) {
     Human source(HumanSpec{});
     for (const HumanSpec& build : kBuilds) {

@@ -1367,12 +1367,13 @@ BENDY_API float bendy_retarget_scale(const bendy_retarget* retarget);
 BENDY_API const uint32_t* bendy_retarget_joints(const bendy_retarget* retarget);
 BENDY_API const uint32_t* bendy_retarget_morph_targets(const bendy_retarget* retarget);
 
-/* What a character remembers from one frame to the next: where its feet stand. */
+/* What a character remembers from one frame to the next: where its feet stand and its hands lie, and how its joints
+ * were turned. */
 typedef struct bendy_retarget_state bendy_retarget_state;
 
 BENDY_API bendy_retarget_state* bendy_retarget_state_new(bendy_error* error);
 BENDY_API void bendy_retarget_state_free(bendy_retarget_state* state); /* does nothing for NULL */
-/* Forgets where the feet stand: for a motion that jumps (another clip, a seek). */
+/* Forgets the last frame: for a motion that jumps (another clip, a seek). */
 BENDY_API bendy_status bendy_retarget_state_reset(bendy_retarget_state* state, bendy_error* error);
 
 /* What had to give way in a frame. */
@@ -1383,18 +1384,21 @@ typedef struct bendy_retargeted {
     float missed;          /* metres: most that a hand or foot is away from where it was to be */
     uint32_t missed_joint; /* of the target, or BENDY_NONE */
     float lowered;         /* metres: by how much the hips were lowered so that the feet reach the ground */
-    float contacts[8];     /* 0 in the air, 1 on the ground: left heel, left toes, right heel, right toes; the same of
-                              an animal's front feet; as given or, otherwise, as found */
+    float contacts[11];    /* 0 in the air, 1 on the ground: left heel, left toes, right heel, right toes; the same of
+                              an animal's front feet; a human's left hand, right hand, and its body, if it sits, lies or
+                              kneels; as given or, otherwise, as found */
 } bendy_retargeted;
 
 /* Sets `pose`, of the target, to a pose of the source. Where neither a constraint nor a contact acts, limbs have the
  * directions of the source's. What a constraint holds back, the joints below make up for as far as theirs allow. Feet
- * that stand on the ground are then brought to their places by IK. `contacts` are as in bendy_retargeted; if NULL, they
- * are found by the height of heel and toes. `result` may be NULL. Fails for numbers that are not finite, and the pose
- * is then at rest. */
+ * and hands on the ground are then brought to their places by IK, and the body of who sits, lies or kneels to its
+ * height. `contacts` are as in bendy_retargeted; if NULL, they are found by heights above the ground. `seconds` since
+ * the last call with this state, 0 to 1: joints that would jump where the source does not turn quickly, but do not
+ * jump; 0: they may. The first call with seconds allocates. `result` may be NULL. Fails for numbers that are not
+ * finite, and the pose is then at rest. */
 BENDY_API bendy_status bendy_retarget_pose(bendy_pose* pose, bendy_retarget* retarget,
                                            bendy_pose* source /* of another model */, bendy_retarget_state* state,
-                                           const float contacts[8] /* or NULL */,
+                                           const float contacts[11] /* or NULL */, float seconds,
                                            bendy_retargeted* result /* or NULL */, bendy_error* error);
 
 /* ---- Levels of detail ------------------------------------------------------------------------------------ */

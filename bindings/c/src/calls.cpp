@@ -1442,8 +1442,8 @@ bendy_status bendy_retarget_state_reset(bendy_retarget_state* state, bendy_error
 }
 
 bendy_status bendy_retarget_pose(bendy_pose* pose, bendy_retarget* retarget, bendy_pose* source,
-                                 bendy_retarget_state* state, const float* contacts, bendy_retargeted* result,
-                                 bendy_error* error) {
+                                 bendy_retarget_state* state, const float* contacts, float seconds,
+                                 bendy_retargeted* result, bendy_error* error) {
     return guarded(error, [&]() -> bendy_status {
         if (const bendy_status status = check_pointer(pose, "pose", error)) return status;
         if (const bendy_status status = check_pointer(retarget, "retarget", error)) return status;
@@ -1451,13 +1451,14 @@ bendy_status bendy_retarget_pose(bendy_pose* pose, bendy_retarget* retarget, ben
         if (const bendy_status status = check_pointer(source, "source", error)) return status;
         if (const bendy_status status = check_pointer(state, "state", error)) return status;
         if (const bendy_status status =
-                contacts == nullptr ? BENDY_OK : check_finite(std::span(contacts, 8), "contacts", error))
+                contacts == nullptr ? BENDY_OK : check_finite(std::span(contacts, 11), "contacts", error))
             return status;
+        if (const bendy_status status = check_finite(seconds, "seconds", error)) return status;
         if (const bendy_status status = result == nullptr ? BENDY_OK : check_out(result, "result", error))
             return status;
         bendy_retargeted made_result{};
         if (const bendy_status status =
-                bendy::capi::retarget_pose(pose, retarget, source, state, contacts, made_result, error))
+                bendy::capi::retarget_pose(pose, retarget, source, state, contacts, seconds, made_result, error))
             return status;
         if (result != nullptr) put(*result, made_result);
         return BENDY_OK;

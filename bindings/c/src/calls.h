@@ -179,7 +179,7 @@ bendy_status retarget_new(const bendy_model* source, const bendy_model* target, 
 bendy_status retarget_state_new(bendy_retarget_state*& made, bendy_error* error);
 bendy_status retarget_state_reset(bendy_retarget_state* state, bendy_error* error);
 bendy_status retarget_pose(bendy_pose* pose, bendy_retarget* retarget, bendy_pose* source, bendy_retarget_state* state,
-                           const float* contacts, bendy_retargeted& result, bendy_error* error);
+                           const float* contacts, float seconds, bendy_retargeted& result, bendy_error* error);
 bendy_status lod_new(const bendy_model* model, bendy_lod*& made, bendy_error* error);
 bendy_status lod_set_share(bendy_lod* lod, float share, bendy_error* error);
 bendy_status get_lod(const bendy_lod* lod, bendy_lod_info& out, bendy_error* error);

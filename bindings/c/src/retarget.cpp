@@ -48,14 +48,14 @@ bendy_status bendy::capi::retarget_state_reset(bendy_retarget_state* state, bend
 }
 
 bendy_status bendy::capi::retarget_pose(bendy_pose* pose, bendy_retarget* retarget, bendy_pose* source,
-                                        bendy_retarget_state* state, const float* contacts, bendy_retargeted& result,
-                                        bendy_error* error) {
+                                        bendy_retarget_state* state, const float* contacts, float seconds,
+                                        bendy_retargeted& result, bendy_error* error) {
     if (source->character != retarget->source)
         return fail(error, BENDY_BAD_ARGUMENT, "source is of another model than the source of the retargeting");
     if (pose == source) return fail(error, BENDY_BAD_ARGUMENT, "source is the pose itself");
     std::optional<bendy::ContactWeights> given;
     if (contacts != nullptr) std::copy_n(contacts, bendy::kContacts, given.emplace().begin());
-    const auto retargeted = bendy::retarget(pose->pose, retarget->retarget, source->pose, state->state, given);
+    const auto retargeted = bendy::retarget(pose->pose, retarget->retarget, source->pose, state->state, given, seconds);
     if (!retargeted) return fail(error, BENDY_BAD_ARGUMENT, error_text(retargeted.error()));
     to_c(*retargeted, result);
     return BENDY_OK;

@@ -20,7 +20,8 @@ class Retargeted(c.Retargeted):
     turned: radians, most that a constraint turned a joint away from where it was to be; turned_joint: its number in the target, or
     None. missed: metres, most that a hand or foot is away from where it was to be; missed_joint: as turned_joint. lowered: metres, by
     how much the hips were lowered so that the feet reach the ground. contacts: how firmly left heel, left toes, right heel and right
-    toes stand, and the same of an animal's front feet, 0 in the air to 1 on the ground.
+    toes stand, the same of an animal's front feet, a human's left hand and right hand, and its body, if it sits, lies or kneels: 0 in the
+    air to 1 on the ground.
     """
 
     def __repr__(self) -> str:
@@ -28,7 +29,8 @@ class Retargeted(c.Retargeted):
 
 
 class RetargetState:
-    """What a character remembers from one frame to the next: where its feet stand."""
+    """What a character remembers from one frame to the next: where its feet stand and its hands lie, and how its joints
+    were turned. Make a new one where the motion jumps."""
 
     follows: "bendy_retarget_state"
 
@@ -56,15 +58,17 @@ class Retarget:
         self._target = target._get()
         self._handle = c.retarget_new(source._get().handle, self._target.handle, c.RetargetOptions(**options))
 
-    def apply(self, pose: Pose, source: Pose, state: RetargetState, contacts: Optional[ArrayLike] = None) -> Retargeted:
+    def apply(self, pose: Pose, source: Pose, state: RetargetState, contacts: Optional[ArrayLike] = None,
+              seconds: float = 0.0) -> Retargeted:
         """Sets a pose of the target to a pose of the source. Where neither a constraint nor a contact acts, limbs have the directions of
-        the source's. What a constraint holds back, the joints below make up for as far as theirs allow. Feet that stand on the ground
-        are then brought to their places by IK.
+        the source's. What a constraint holds back, the joints below make up for as far as theirs allow. Feet and hands on the
+        ground are then brought to their places by IK, and the body of who sits, lies or kneels to its height.
 
-        state: the character's own. contacts: (8,), as in Retargeted; None: found by the height of heel and toes. Raises ValueError; if a
-        number is not finite, the pose is then at rest."""
-        given = None if contacts is None else floats(contacts, (8,), "contacts")
-        return c.retarget_pose(pose._handle, self._handle, source._handle, state._handle, given, Retargeted())
+        state: the character's own. contacts: (11,), as in Retargeted; None: found by heights above the ground. seconds: since the last
+        call with this state, 0 to 1: joints that would jump where the source does not turn quickly, but do not jump; 0: they may. Raises
+        ValueError; if a number is not finite, the pose is then at rest."""
+        given = None if contacts is None else floats(contacts, (11,), "contacts")
+        return c.retarget_pose(pose._handle, self._handle, source._handle, state._handle, given, seconds, Retargeted())
 
     @property
     def joints(self) -> List[Optional[int]]:

@@ -13,7 +13,7 @@ const retargetNames = optionNames<RetargetOptions>(retargetOptionsNames);
 /** What had to give way in a frame: the result of `Retarget.apply`. */
 export interface Retargeted extends BendyRetargeted {}
 
-/** What a character remembers from one frame to the next: where its feet stand. */
+/** What a character remembers from one frame to the next: where its feet stand and its hands lie, and how its joints were turned. */
 export class RetargetState extends MadeRetargetState {
   /** Throws OUT_OF_MEMORY. */
   constructor(runtime: Runtime) {
@@ -46,12 +46,14 @@ export class Retarget extends MadeRetarget {
 
   /**
    * Sets a pose of `model` to a pose of `source`. Where neither a constraint nor a contact acts, limbs have the directions of the
-   * source's. Feet that stand on the ground are brought to their places by IK. `state` is the character's own. `contacts` says how
-   * firmly left heel, left toes, right heel and right toes stand, then the same of an animal's front feet, from 0 in the air to 1; if
-   * not given, they are found by the height of heel and toes. Throws BAD_ARGUMENT, and for numbers that are not finite the pose is then at rest.
+   * source's. Feet and hands on the ground are brought to their places by IK, and the body of who sits, lies or kneels to its height.
+   * `state` is the character's own. `contacts` says how firmly left heel, left toes, right heel and right toes stand, then the same of an
+   * animal's front feet, of a human's left and right hand, and its body, from 0 in the air to 1; if not given, they are found by heights
+   * above the ground. `seconds` since the last call with this state, 0 to 1: joints that would jump where the source does not turn
+   * quickly, but do not jump; 0: they may. Throws BAD_ARGUMENT, and for numbers that are not finite the pose is then at rest.
    */
-  apply(pose: Pose, source: Pose, state: RetargetState, contacts?: ArrayLike<number>): Retargeted {
-    return this.runtime.calls.bendy_retarget_pose(pose, this, source, state, contacts);
+  apply(pose: Pose, source: Pose, state: RetargetState, contacts?: ArrayLike<number>, seconds = 0): Retargeted {
+    return this.runtime.calls.bendy_retarget_pose(pose, this, source, state, contacts, seconds);
   }
 
   /** For each joint of `model`, the source's joint that turns it, or -1. */

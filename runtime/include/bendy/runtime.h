@@ -48,5 +48,6 @@
 #include <bendy/runtime/sample.h>
 #include <bendy/runtime/skin.h>
 #include <bendy/runtime/socket.h>
+#include <bendy/runtime/turn.h>
 
 #endif

@@ -46,6 +46,10 @@ public:
         make_hips();
         find_detached();
         make_limbs();
+        if (plan_.is_human && plan_.options.plants_feet && source_.has_legs() && target_.has_legs()) {
+            plan_.source_surface = find_surface(source_);
+            plan_.surface = find_surface(target_);
+        }
         match_morph_targets();
     }
 
@@ -265,6 +269,7 @@ private:
             const std::uint32_t upper = moved_of_[plan_.limbs[k].upper];
             if (upper != kNone) plan_.moved[upper].limb = static_cast<std::uint32_t>(k);
             if (foot != nullptr) make_foot(*foot, source_.limbs()[k], limb);
+            if (foot == nullptr) make_hand(plan_.hands.at(k - plan_.feet.size()), source_.limbs()[k].foot_joint());
         }
     }
 
@@ -341,9 +346,14 @@ private:
         return length > 0.0 ? way / length : glm::dvec3(0.0);
     }
 
-    void make_foot(FootPlan& foot, const Limb& from, const Limb& to) {
-        foot.turn = turn_of_[from.foot_joint()];
-        foot.rest = glm::conjugate(source_.turn(from.foot_joint()));
+    void make_hand(FootPlan& hand, std::uint32_t source) const {
+        hand.turn = turn_of_[source];
+        hand.rest = glm::conjugate(source_.turn(source));
+        hand.heel.source = source;
+    }
+
+    void make_foot(FootPlan& foot, const Limb& from, const Limb& to) const {
+        make_hand(foot, from.foot_joint());
         foot.heel = make_contact(from.foot_joint(), to.foot_joint());
         if (from.toes() == kNone || to.toes() == kNone) return;
         foot.toes = make_contact(from.toes(), to.toes());

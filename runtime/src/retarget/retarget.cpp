@@ -2,6 +2,7 @@
 
 #include "retarget_plan.h"
 #include "settle.h"
+#include "slow_down.h"
 
 #include "math/rotation.h"
 #include "pose/pose_state.h"
@@ -132,7 +133,7 @@ std::span<const std::uint32_t> Retarget::morph_targets() const {
 }
 
 Result<Retargeted, CallError> retarget(Pose& pose, Retarget& retarget, Pose& source, RetargetState& state,
-                                       const std::optional<ContactWeights>& contacts) {
+                                       const std::optional<ContactWeights>& contacts, float seconds) {
     RetargetPlan& plan = RetargetPlan::of(retarget);
     if (pose.model() != plan.target || source.model() != plan.source) return CallError::other_model;
     assert(&pose != &source);
@@ -148,7 +149,9 @@ Result<Retargeted, CallError> retarget(Pose& pose, Retarget& retarget, Pose& sou
     }
     place_detached(plan, to);
     set_morph_targets(plan, from, to);
-    return settle(plan, source, pose, state, contacts);
+    const Retargeted retargeted = settle(plan, source, pose, state, contacts);
+    slow_down(plan, from, to, state, seconds);
+    return retargeted;
 }
 
 }  // namespace bendy

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "surface.h"
+
 #include "model/standing_rotations.h"
 
 #include <bendy/runtime/model.h>
@@ -94,7 +96,7 @@ struct LimbPlan {
     glm::dvec3 upper_bone{0.0}, lower_side{0.0}, lower_bone{0.0};
 };
 
-/// A leg: where its foot stands.
+/// A leg: where its foot stands. Or an arm: a hand is a heel whose heights follow from the skin, frame by frame.
 struct FootPlan {
     ContactPlan heel, toes;
     std::uint32_t turn = 0;       ///< of the source's foot
@@ -124,8 +126,10 @@ struct RetargetPlan {
     glm::dvec3 source_up{0, 1, 0}, up{0, 1, 0};
     double source_leg = 1.0, leg = 1.0;  ///< metres: see Retarget::leg
     bool is_human = true;
-    std::vector<LimbPlan> limbs;  ///< see Body::limbs
-    std::vector<FootPlan> feet;   ///< of the first limbs
+    std::vector<LimbPlan> limbs;      ///< see Body::limbs
+    std::vector<FootPlan> feet;       ///< of the first limbs
+    std::array<FootPlan, 2> hands;    ///< of the limbs behind those, of a human
+    Surface source_surface, surface;  ///< empty if only feet touch the ground
 
     std::vector<glm::dquat> held;   ///< work memory: of each moved joint, by what limits above it have turned it
     std::vector<glm::dquat> turns;  ///< work memory: of the source joints, then the mixed ones

@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace bendy {
 namespace {
@@ -51,11 +52,15 @@ public:
         : plan_(plan), source_(PoseState::of(source)), pose_(pose), to_(PoseState::of(pose)) {}
 
     Retargeted run(RetargetState& state, const std::optional<ContactWeights>& contacts) {
+        if (plan_.options.plants_feet) lay_body(contacts);
         for (std::size_t k = 0; k < plan_.limbs.size(); ++k) {
             if (plan_.limbs[k].can_reach) read_limb(plan_.limbs[k], limbs_[k]);
         }
-        for (std::size_t k = 0; k < plan_.feet.size() && plan_.options.plants_feet; ++k) plant(k, state, contacts);
-        if (plan_.options.limits != Limits::off) constrain_all();
+        if (plan_.options.plants_feet) plant_all(state, contacts);
+        if (plan_.options.limits != Limits::off) {
+            constrain_all();
+            lay_again();
+        }
         lower_hips();
         for (std::size_t k = 0; k < plan_.limbs.size(); ++k) {
             if (plan_.limbs[k].can_reach) finish(plan_.limbs[k], limbs_[k]);
@@ -76,29 +81,119 @@ private:
         limb.turn = rigid_rotation(end);
     }
 
-    void plant(std::size_t leg, RetargetState& state, const std::optional<ContactWeights>& contacts) {
-        const LimbPlan& plan = plan_.limbs[leg];
-        const FootPlan& foot = plan_.feet[leg];
-        if (!plan.can_reach) return;
-        RetargetState::Stand& heel = state.stands[2 * leg];
-        RetargetState::Stand& toes = state.stands[2 * leg + 1];
-        FootContact contact;
-        if (contacts) {
-            contact = {fraction((*contacts)[2 * leg]), fraction((*contacts)[2 * leg + 1])};
-        } else {
-            contact = find_contact(plan_, foot, source_, toes.weight);
+    /// Brings the body of who sits, lies or kneels to the height above the ground that the source's has, although it
+    /// may be thicker; but not below the ground, where many a source is.
+    void lay_body(const std::optional<ContactWeights>& contacts) {
+        Surface &from = plan_.source_surface, &to = plan_.surface;
+        if (from.body.shares.empty() || to.body.shares.empty() || plan_.hips.joint == kNone) return;
+        const double height = source_height(from.body) / plan_.source_leg;
+        double above_feet = height;
+        for (std::size_t k = 0; k < plan_.feet.size(); ++k)
+            above_feet = std::max(above_feet, height - source_height(from.ends.at(k)) / plan_.source_leg);
+        lying_ = weight_of(Contact::body, contacts, body_contact(height, above_feet));
+        body_height_ = height * plan_.leg;
+        (void)shift_body();
+    }
+
+    /// Returns the shift.
+    glm::dvec3 shift_body() {
+        const double now = height_of(plan_.surface.body);
+        const double laid = std::max(std::max(body_height_, 0.0) - now, -height_of(plan_.surface.arms));
+        const double sunk = std::min(body_height_, 0.0) - now;  // who crouches does not sink, either
+        const double shift = std::max(lying_ * laid, sunk);
+        if (!(lying_ > 0.0) && !(shift > 0.0)) return glm::dvec3(0.0);
+        move_hips(shift * plan_.up);
+        return shift * plan_.up;
+    }
+
+    /// Limits turn head and trunk.
+    void lay_again() {
+        if (!std::isfinite(body_height_)) return;
+        const glm::dvec3 shift = shift_body();
+        for (LimbFrame& limb : limbs_) limb.wanted += (1.0 - limb.planted) * shift;
+    }
+
+    /// Returns the height above the ground of the source's or the target's lowest point, metres.
+    double source_height(SurfacePart& part) {
+        return part.lowest(source_, plan_.source_up) - plan_.source_surface.floor;
+    }
+    double height_of(SurfacePart& part) { return part.lowest(to_, plan_.up) - plan_.surface.floor; }
+
+    /// Moves the hips with all below them, in model space.
+    void move_hips(const glm::dvec3& shift) {
+        const std::uint32_t parent = plan_.target.parents()[plan_.hips.joint];
+        const glm::dmat3 space(to_.fresh_matrix(parent));
+        if (!(std::abs(glm::determinant(space)) > 1e-30)) return;
+        JointTransform local = to_.local_of(plan_.hips.joint);
+        local.translation += glm::vec3(glm::inverse(space) * shift);
+        to_.set_local(plan_.hips.joint, local);
+        place_detached(plan_, to_);
+    }
+
+    void plant_all(RetargetState& state, const std::optional<ContactWeights>& contacts) {
+        for (std::size_t k = 0; k < plan_.feet.size(); ++k) {
+            const FootPlan& foot = plan_.feet[k];
+            if (!plan_.limbs[k].can_reach) continue;
+            RetargetState::Stand &heel = state.stands.at(2 * k), &toes = state.stands.at(2 * k + 1);
+            FootContact contact = contacts ? FootContact{} : find_contact(plan_, foot, source_, toes.weight);
+            contact.heel = weight_of(static_cast<Contact>(2 * k), contacts, contact.heel);
+            contact.toes = weight_of(static_cast<Contact>(2 * k + 1), contacts, contact.toes);
+            plant(k, foot, contact, heel, toes);
         }
-        result_.contacts[2 * leg] = contact.heel;
-        result_.contacts[2 * leg + 1] = contact.toes;
-        const glm::dvec3 ankle = limbs_[leg].wanted + limbs_[leg].below;
+        for (std::size_t k = 0; k < plan_.hands.size() && plan_.is_human; ++k) {
+            FootPlan hand = plan_.hands.at(k);
+            if (!lay_hand(plan_.feet.size() + k, hand)) continue;
+            const std::size_t number = static_cast<std::size_t>(Contact::left_hand) + k;
+            RetargetState::Stand none;
+            FootContact contact = contacts ? FootContact{} : find_contact(plan_, hand, source_, 0.0f);
+            contact.heel = weight_of(static_cast<Contact>(number), contacts, contact.heel);
+            plant(plan_.feet.size() + k, hand, contact, state.stands.at(number), none);
+        }
+        for (std::size_t k = 0; k < plan_.limbs.size() && lying_ > 0.0; ++k) raise_end(k);
+    }
+
+    /// Hands and feet of who lies are not below the ground.
+    void raise_end(std::size_t number) {
+        const LimbPlan& plan = plan_.limbs[number];
+        LimbFrame& limb = limbs_.at(number);
+        if (!plan.can_reach || plan_.surface.ends.at(number).shares.empty()) return;
+        const double moved = glm::dot(plan_.up, limb.wanted - place(plan.end));
+        const double below = -height_of(plan_.surface.ends.at(number)) - moved;
+        if (!(below > 0.0)) return;
+        limb.wanted += lying_ * below * plan_.up;
+        limb.planted = std::max(limb.planted, lying_);
+    }
+
+    /// Finds how high the wrist is when the hand, as it is turned now, lies on the ground.
+    bool lay_hand(std::size_t number, FootPlan& hand) {
+        SurfacePart &from = plan_.source_surface.ends.at(number), &to = plan_.surface.ends.at(number);
+        const LimbPlan& limb = plan_.limbs[number];
+        if (!limb.can_reach || from.shares.empty() || to.shares.empty()) return false;
+        const glm::dvec3 source_wrist(source_.fresh_matrix(hand.heel.source)[3]);
+        const double height = source_height(from);
+        hand.heel.rest_height = glm::dot(plan_.source_up, source_wrist - plan_.map.from) - height;
+        const double above = glm::dot(plan_.up, place(limb.foot)) - height_of(to);  // the wrist above the hand
+        hand.heel.lift = above + std::max(height, 0.0) * plan_.map.scale - glm::dot(plan_.up, plan_.map(source_wrist));
+        return true;
+    }
+
+    void plant(std::size_t limb, const FootPlan& foot, const FootContact& contact, RetargetState::Stand& heel,
+               RetargetState::Stand& toes) {
+        const glm::dvec3 ankle = limbs_[limb].wanted + limbs_[limb].below;
         Foot now{ankle};
         if (foot.toes.source != kNone) {
             const glm::dmat4 carrier = to_.fresh_matrix(foot.toes_carrier);
             now.to_toes = glm::dvec3(carrier[3]) - ankle + glm::dmat3(carrier) * foot.toes_at;
         }
         const Standing standing = stand(plan_, foot, source_, now, contact, heel, toes);
-        limbs_[leg].wanted = standing.ankle - limbs_[leg].below;
-        limbs_[leg].planted = standing.weight;
+        limbs_[limb].wanted = standing.ankle - limbs_[limb].below;
+        limbs_[limb].planted = standing.weight;
+    }
+
+    /// Returns how firmly something stands on the ground, and writes it into the result.
+    float weight_of(Contact contact, const std::optional<ContactWeights>& given, float found) {
+        const auto number = static_cast<std::size_t>(contact);
+        return result_.contacts.at(number) = given ? fraction((*given).at(number)) : found;
     }
 
     /// NaN counts as 0. A foot that is nearly in the air would still be drawn to where it stood before.
@@ -216,15 +311,10 @@ private:
         for (std::size_t k = 0; k < plan_.feet.size(); ++k) {
             if (limbs_[k].planted > 0.0) lowered = std::max(lowered, lowering_for(plan_.limbs[k], limbs_[k]));
         }
+        lowered *= 1.0 - lying_;
         if (!(lowered > 0.0) || plan_.hips.joint == kNone) return;
-        const std::uint32_t parent = plan_.target.parents()[plan_.hips.joint];
-        const glm::dmat3 space(to_.fresh_matrix(parent));
-        if (!(std::abs(glm::determinant(space)) > 1e-30)) return;
         const glm::dvec3 shift = -lowered * plan_.up;
-        JointTransform local = to_.local_of(plan_.hips.joint);
-        local.translation += glm::vec3(glm::inverse(space) * shift);
-        to_.set_local(plan_.hips.joint, local);
-        place_detached(plan_, to_);
+        move_hips(shift);
         for (LimbFrame& limb : limbs_) {
             limb.wanted += (1.0 - limb.planted) * shift;
         }
@@ -356,6 +446,8 @@ private:
     Pose& pose_;
     PoseState& to_;
     std::array<LimbFrame, kMostLimbs> limbs_{};
+    double lying_ = 0.0;                                            ///< how firmly the body is on the ground
+    double body_height_ = std::numeric_limits<double>::infinity();  ///< metres, as the source's: infinite if unknown
     Retargeted result_;
 };
 

@@ -70,6 +70,13 @@ FootContact find_contact(const RetargetPlan& plan, const FootPlan& foot, PoseSta
     return found;
 }
 
+float body_contact(double height, double above_feet) {
+    constexpr double kLies = 0.12, kInAir = 0.35;   // leg lengths
+    constexpr double kSits = 0.25, kStands = 0.45;  // leg lengths above the feet
+    constexpr double kSinks = 0.5, kElsewhere = 1;  // leg lengths below the ground
+    return eased(height, kLies, kInAir) * eased(above_feet, kSits, kStands) * eased(-height, kSinks, kElsewhere);
+}
+
 Standing stand(const RetargetPlan& plan, const FootPlan& plan_of_foot, PoseState& source, const Foot& foot,
                const FootContact& contact, RetargetState::Stand& heel, RetargetState::Stand& toes) {
     Standing standing{foot.ankle, 0.0};

@@ -34,6 +34,10 @@ struct FootContact {
 /// after the whole foot has: a foot that swings forward may be low too.
 FootContact find_contact(const RetargetPlan& plan, const FootPlan& foot, PoseState& source, float last_toes);
 
+/// Finds how firmly a body sits, lies or kneels by its lowest point, in leg lengths above the ground and above the
+/// feet.
+float body_contact(double height, double above_feet);
+
 /// Returns where the ankle is to be. Where a point of the foot begins to stand, its distance from the place that the
 /// source's would have is remembered; as long as it stands it moves as that does.
 Standing stand(const RetargetPlan& plan, const FootPlan& plan_of_foot, PoseState& source, const Foot& foot,

@@ -3,12 +3,12 @@
 #include "linear_keys.h"
 #include "sample_times.h"
 #include "spread_jumps.h"
-#include "turn.h"
 
 #include <bendy/motion/retarget_clips.h>
 #include <bendy/runtime/constrain.h>
 #include <bendy/runtime/curve.h>
 #include <bendy/runtime/sample.h>
+#include <bendy/runtime/turn.h>
 
 #include <glm/geometric.hpp>
 

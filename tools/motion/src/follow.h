@@ -65,8 +65,16 @@ struct Followed {
 std::optional<Followed> follow(Retarget& retarget, BoneComparison& comparison, const Clip& clip,
                                const RetargetOptions& options, const std::vector<std::uint32_t>& sampled_meshes);
 
-inline constexpr const char* kContactNames[kContacts] = {
-    "left_heel_contact",       "left_toes_contact",       "right_heel_contact",       "right_toes_contact",
-    "left_front_heel_contact", "left_front_toes_contact", "right_front_heel_contact", "right_front_toes_contact"};
+inline constexpr const char* kContactNames[kContacts] = {"left_heel_contact",
+                                                         "left_toes_contact",
+                                                         "right_heel_contact",
+                                                         "right_toes_contact",
+                                                         "left_front_heel_contact",
+                                                         "left_front_toes_contact",
+                                                         "right_front_heel_contact",
+                                                         "right_front_toes_contact",
+                                                         "left_hand_contact",
+                                                         "right_hand_contact",
+                                                         "body_contact"};
 
 }  // namespace bendy::motion

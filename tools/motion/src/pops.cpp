@@ -1,10 +1,9 @@
 #include "pops.h"
 
-#include "turn.h"
-
 #include <bendy/motion/retarget_clips.h>
 #include <bendy/runtime/pose.h>
 #include <bendy/runtime/sample.h>
+#include <bendy/runtime/turn.h>
 
 #include <algorithm>
 #include <array>

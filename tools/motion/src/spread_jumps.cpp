@@ -1,13 +1,10 @@
 #include "spread_jumps.h"
 
-#include "turn.h"
-
-#include <bendy/runtime/constrain.h>
+#include <bendy/runtime/turn.h>
 
 #include <glm/gtc/quaternion.hpp>
 
 #include <cstddef>
-#include <utility>
 
 namespace bendy::motion {
 namespace {
@@ -37,7 +34,8 @@ public:
         const std::vector<glm::quat> forwards = follow(found, false, repeats), backwards = follow(found, true, repeats);
         std::vector<glm::quat> mean;
         for (std::size_t k = 0; k < found.size(); ++k)
-            mean.push_back(forwards[k] == backwards[k] ? found[k] : between(forwards[k], backwards[k], 0.5));
+            mean.push_back(forwards[k] == backwards[k] ? found[k]
+                                                       : turn_part_way(limit_, rest_, forwards[k], backwards[k], 0.5));
         mean = follow(mean, false, repeats);  // where the two are half a turn apart, so that their mean jumps
         for (std::size_t k = 0; k < found.size(); ++k) {
             if (mean[k] == found[k]) continue;
@@ -58,36 +56,10 @@ private:
             if (round == 1) followed[at(0)] = followed[at(count - 1)];
             for (std::size_t k = 1; k < count; ++k) {
                 const double allowed = allowed_[is_backwards ? at(k) + 1 : k];
-                followed[at(k)] = step(followed[at(k - 1)], wanted[at(k)], allowed);
+                followed[at(k)] = turn_towards(limit_, rest_, followed[at(k - 1)], wanted[at(k)], allowed);
             }
         }
         return followed;
-    }
-
-    [[nodiscard]] glm::quat step(const glm::quat& from, const glm::quat& to, double allowed) const {
-        if (turn_between(from, to) <= allowed) return to;
-        constexpr int kSteps = 12;
-        double low = 0.0, high = 1.0;
-        for (int k = 0; k < kSteps; ++k) {
-            const double middle = 0.5 * (low + high);
-            (turn_between(from, between(from, to, middle)) <= allowed ? low : high) = middle;
-        }
-        return between(from, to, low);
-    }
-
-    [[nodiscard]] glm::quat between(const glm::quat& a, const glm::quat& b, double share) const {
-        if (limit_ == nullptr) return glm::normalize(glm::slerp(a, b, static_cast<float>(share)));
-        const auto [inside_a, beyond_a] = split(a);
-        const auto [inside_b, beyond_b] = split(b);
-        const glm::dquat R = between_legal(*limit_, inside_a, inside_b, share) * glm::slerp(beyond_a, beyond_b, share);
-        return from_constraint_space(*limit_, rest_, R);
-    }
-
-    /// Returns the legal rotation, and by what the joint is turned beyond it.
-    [[nodiscard]] std::pair<glm::dquat, glm::dquat> split(const glm::quat& local) const {
-        const glm::dquat R = to_constraint_space(*limit_, rest_, local);
-        const glm::dquat legal = clamp_rotation(*limit_, R);
-        return {legal, glm::conjugate(legal) * R};
     }
 
     std::span<std::vector<JointTransform>> frames_;

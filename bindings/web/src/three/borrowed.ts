@@ -16,12 +16,12 @@ export class Borrowed {
     this.model = source;
   }
 
-  /** Sets the pose of the one that borrows. */
-  apply(target: Pose): void {
-    this.#retarget.apply(target, this.pose, this.#state);
+  /** Sets the pose of the one that borrows, so many seconds after the last call. */
+  apply(target: Pose, seconds: number): void {
+    this.#retarget.apply(target, this.pose, this.#state, undefined, seconds);
   }
 
-  /** Forgets where the feet stand: for a motion that jumps. */
+  /** Forgets the last frame: for a motion that jumps. */
   reset(): void {
     this.#state.reset();
   }

@@ -50,8 +50,9 @@ inline constexpr double kSoftLimit = 0.2617993877991494;  ///< radians: 15 degre
 struct RetargetOptions {
     RestPoses rest_poses = RestPoses::measured;
     Limits limits = Limits::soft;
-    /// Moves the feet, while they touch the ground, as far as the source's feet move, times the length of the legs. Has
-    /// no effect on legs with joints between hip, knee and ankle that have no IK chain.
+    /// Moves feet and hands, while they touch the ground, as far as the source's move, times the length of the legs,
+    /// and keeps body, feet and hands from sinking into it. Has no effect on limbs with joints between their three that
+    /// have no IK chain.
     bool plants_feet = true;
 };
 
@@ -77,8 +78,9 @@ struct RetargetError {
 /// Says what is wrong and what to write in the rig file. Allocates.
 std::string error_text(const RetargetError& error);
 
-/// Feet, with two points of contact each. Those of an animal's hind legs are named as a human's; its heel is where the
-/// paw or the hoof begins.
+/// What may touch the ground. Feet have two points of contact each; those of an animal's hind legs are named as a
+/// human's, and its heel is where the paw or the hoof begins. Of a human hands do, and the body of who sits, lies or
+/// kneels: head, trunk, thighs or knees.
 enum class Contact : std::uint8_t {
     left_heel,
     left_toes,
@@ -88,20 +90,30 @@ enum class Contact : std::uint8_t {
     left_front_toes,
     right_front_heel,
     right_front_toes,
+    left_hand,
+    right_hand,
+    body,
 };
-inline constexpr std::size_t kContacts = 8;
+inline constexpr std::size_t kContacts = 11;
 /// How firmly each of them stands on the ground: 0 in the air, 1 on the ground.
 using ContactWeights = std::array<float, kContacts>;
 
-/// What a character remembers from one frame to the next: where its feet stand. Make a new one where the motion jumps
-/// (another clip, a seek).
+/// What a character remembers from one frame to the next: where its feet stand and its hands lie, and how its joints
+/// were turned. Make a new one where the motion jumps (another clip, a seek).
 struct RetargetState {
     struct Stand {
         glm::vec3 offset{0.0f};  ///< metres, target: from where the source's point would be, in the foot's heading
         float weight = 0.0f;     ///< of the last frame
     };
     std::array<Stand, kContacts> stands{};  ///< by Contact
+    /// Rotations of the last call that gave seconds: of the source's joints, then of the target's. Empty: unknown.
+    std::vector<glm::quat> turns;
 };
+
+/// How quickly a joint turns that jumps where the source does not, from one end of its limits to the other or from one
+/// side of a straight leg to the other: beyond kOfSource times the largest turn of the source's joints.
+inline constexpr double kTurnSpeed = 8.0;  ///< radians a second
+inline constexpr double kOfSource = 1.5;
 
 /// What had to give way in a frame.
 struct Retargeted {
@@ -158,14 +170,19 @@ private:
 
 /// Sets `pose`, of the target, to the source's pose. Where neither a constraint nor a contact acts, limbs have the
 /// directions of the source's. What a constraint holds back, the joints below make up for as far as theirs allow. Feet
-/// that stand on the ground are then brought to their places by IK, within the constraints. Retargeting to a model of
+/// and hands on the ground are then brought to their places by IK, within the constraints; the body of who sits, lies
+/// or kneels is brought to the height above the ground that the source's has. Retargeting to a model of
 /// the same build copies the numbers bit by bit.
 ///
 /// Errors: other_model, and nothing changes; not_finite, and the pose is at rest.
 /// \param source    not `pose` itself
 /// \param contacts  such as from curves of the clip; otherwise found by the height of heel and toes above where they
-///                  are at rest. Numbers within 0.005 of 0 or 1 count as these
+///                  are at rest, of hands and body by that of the skin. Numbers within 0.005 of 0 or 1 count as these
+/// \param seconds   since the last call with this state, 0 to 1: joints then turn at most at kTurnSpeed, inside their
+///                  limits, so that they arrive late where they would jump. 0, NaN: they may jump. The first call with
+///                  seconds allocates
 [[nodiscard]] Result<Retargeted, CallError> retarget(Pose& pose, Retarget& retarget, Pose& source, RetargetState& state,
-                                                     const std::optional<ContactWeights>& contacts = std::nullopt);
+                                                     const std::optional<ContactWeights>& contacts = std::nullopt,
+                                                     float seconds = 0.0f);
 
 }  // namespace bendy

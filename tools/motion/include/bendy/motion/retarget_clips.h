@@ -81,11 +81,10 @@ edit::Edited retarget_clips(Bytes file, Bytes other, const RetargetClips& option
 
 inline constexpr double kMostTurned = 0.00004;  ///< radians
 inline constexpr double kMostTurnedFree =
-    0.000004;                                  ///< without limits and planted feet, where keys of the source are exact
-inline constexpr double kMostMoved = 0.0001;   ///< of the length of the legs
-inline constexpr double kTurnSpeed = 8.0;      ///< radians a second
-inline constexpr double kHardLegSpeed = 16.0;  ///< the same of legs under hard limits, whose feet stand
-inline constexpr double kOfSource = 1.5;
+    0.000004;                                 ///< without limits and planted feet, where keys of the source are exact
+inline constexpr double kMostMoved = 0.0001;  ///< of the length of the legs
+inline constexpr double kHardLegSpeed =
+    16.0;  ///< radians a second: kTurnSpeed of legs under hard limits, whose feet stand
 inline constexpr double kMostWeight = 0.002;  ///< of a morph target, of a contact, of a scale
 
 /// A joint pops that turns in kPopSeconds by more than kPopTurn degrees and more than kPopOfSource times as far as any

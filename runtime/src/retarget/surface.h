@@ -1,0 +1,43 @@
+#pragma once
+
+#include "body.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace bendy {
+
+struct PoseState;
+
+/// Points of a body's skin that lie farthest in many directions.
+struct SurfacePart {
+    /// What one joint adds to a point, as in skinning.
+    struct Share {
+        std::uint32_t joint = 0, point = 0;
+        double weight = 1.0;
+        glm::dvec3 place{0.0};  ///< in the space of the joint
+    };
+    std::vector<Share> shares;    ///< by joint
+    std::vector<double> radii;    ///< metres: about each point
+    std::vector<double> heights;  ///< work memory: of each point
+
+    /// Returns the height of the lowest point along up, metres in model space; infinity without points.
+    double lowest(PoseState& pose, const glm::dvec3& up);
+};
+
+/// Where a human may touch the ground.
+struct Surface {
+    SurfacePart body;                 ///< head, trunk, thighs and knees
+    SurfacePart arms;                 ///< without hands
+    std::array<SurfacePart, 4> ends;  ///< of the limbs, see Body::limbs: feet and hands
+    double floor = 0.0;               ///< metres along up, in model space: below the soles of who stands
+};
+
+/// Reads the skin. What hangs off the body, such as a cape or a skirt, does not count. A body without a skin has its
+/// joints, each in a ball.
+Surface find_surface(const Body& body);
+
+}  // namespace bendy
