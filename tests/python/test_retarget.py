@@ -21,12 +21,12 @@ def test_a_pose_on_a_model_of_the_same_build_is_the_same_to_the_last_bit(model, 
     assert retarget.morph_targets == list(range(model.morph_targets))
     source, pose, state = model.sample("Walk", 0.3), target.pose(), bendy.RetargetState()
     result = retarget.apply(pose, source, state)
-    assert len(result.contacts) == 11 and max(result.contacts) > 0.5
+    assert len(result.contacts) == 12 and max(result.contacts) > 0.5
     assert result.turned == 0.0 and result.turned_joint is None
     assert "missed" in repr(result)
     for name in ("rotations", "translations", "scales", "morph_weights"):
         assert numpy.array_equal(getattr(pose, name), getattr(source, name)), name
-    assert retarget.apply(pose, source, state.reset(), contacts=[1, 1, 0, 0.25] + 7 * [0]).contacts == (1, 1, 0, 0.25) + 7 * (0,)
+    assert retarget.apply(pose, source, state.reset(), contacts=[1, 1, 0, 0.25] + 8 * [0]).contacts == (1, 1, 0, 0.25) + 8 * (0,)
     model.close()
     target.close()
     retarget.apply(pose, source, state)
@@ -48,7 +48,7 @@ def test_poses_of_other_models_are_refused(model, mannequin):
     for target, source in ((other.pose(), model.pose()), (pose, other.pose()), (pose, pose)):
         with pytest.raises(ValueError):
             retarget.apply(target, source, state)
-    for contacts in ([1, 2, 3], [1, numpy.nan] + 9 * [0]):
+    for contacts in ([1, 2, 3], [1, numpy.nan] + 10 * [0]):
         with pytest.raises(ValueError):
             retarget.apply(pose, model.pose(), state, contacts)
 

@@ -20,7 +20,7 @@ struct HumanSpec {
     double collars_up = 0.0, feet_down = 0.0,
            bent = 0.0;  ///< of collarbones, soles and the trunk from the hips upwards
     double thigh = 0.45, shin = 0.42;
-    double hip_width = 0.2;
+    double hip_width = 0.2, collar = 0.13;
     std::uint32_t spine = 3;
     bool is_detached = false;       ///< legs are not below the hips, feet not below the legs
     bool has_split_thighs = false;  ///< of two joints
@@ -72,7 +72,8 @@ private:
         const double height = human_.thigh + human_.shin + 0.58;
         const double up = human_.collars_up * M_PI / 180.0;
         const glm::dvec3 collar = bent({side * 0.03, height, 0.02});
-        const glm::dvec3 shoulder = collar + glm::dvec3(side * 0.13 * std::cos(up), 0.13 * std::sin(up), -0.02);
+        const glm::dvec3 shoulder =
+            collar + glm::dvec3(side * human_.collar * std::cos(up), human_.collar * std::sin(up), -0.02);
         const std::uint32_t clavicle =
             add(name + "Shoulder", human_.has_loose_arms ? chest_ : trunk_, collar, of(side, Role::left_shoulder));
         const std::uint32_t upper = add(name + "Arm", clavicle, shoulder, of(side, Role::left_upper_arm));

@@ -645,6 +645,27 @@ TEST(Retarget, HandsOnTheGroundStayWhereTheyAre) {
     }
 }
 
+TEST(Retarget, HandsThatHoldOneThingStayTogether) {
+    Human source(HumanSpec{.axes = 0}), target(HumanSpec{.collar = 0.2, .axes = 2});
+    const auto apart = [&](const RetargetOptions& options, double forward) {
+        Retarget retargeted = made(source, target, options);
+        RetargetState state;
+        source.pose().set_rest();
+        for (const double side : {1.0, -1.0}) {
+            const std::string name = side > 0.0 ? "left" : "right";
+            source.turn_by(name + "Arm", {0, 1, 0}, -side * forward);
+            source.turn_by(name + "ForeArm", {0, 1, 0}, -side * 60.0);
+        }
+        const auto done = bendy::retarget(target.pose(), retargeted, source.pose(), state);
+        EXPECT_TRUE(done);
+        const glm::dvec3 wanted = source.place("rightHand") - source.place("leftHand");
+        return glm::length(target.place("rightHand") - target.place("leftHand") - wanted);
+    };
+    EXPECT_LT(apart({}, 75.0), 1e-3);
+    EXPECT_GT(apart(kDirections, 75.0), 0.05);
+    EXPECT_EQ(apart({}, 20.0), apart(kDirections, 20.0));
+}
+
 TEST(Retarget, AJointThatJumpsTurnsQuicklyIfItIsKnownHowLongTheFrameTook) {
     ConstraintRecord bend;
     bend.model = static_cast<std::uint8_t>(ConstraintModel::swing_twist_pyramid);

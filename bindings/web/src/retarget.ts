@@ -48,7 +48,8 @@ export class Retarget extends MadeRetarget {
    * Sets a pose of `model` to a pose of `source`. Where neither a constraint nor a contact acts, limbs have the directions of the
    * source's. Feet and hands on the ground are brought to their places by IK, and the body of who sits, lies or kneels to its height.
    * `state` is the character's own. `contacts` says how firmly left heel, left toes, right heel and right toes stand, then the same of an
-   * animal's front feet, of a human's left and right hand, and its body, from 0 in the air to 1; if not given, they are found by heights
+   * animal's front feet, of a human's left and right hand, and its body, from 0 in the air to 1, then whether its hands are near each
+   * other, as on one sword; if not given, they are found by heights
    * above the ground. `seconds` since the last call with this state, 0 to 1: joints that would jump where the source does not turn
    * quickly, but do not jump; 0: they may. Throws BAD_ARGUMENT, and for numbers that are not finite the pose is then at rest.
    */

@@ -65,6 +65,7 @@ private:
         plan_.is_human = target_.kind() == BodyKind::human;
         compare_sizes();
         map.scale = plan_.leg / plan_.source_leg;
+        if (source_.lengths().back() > kLeast) plan_.source_arm = source_.lengths().back();
         const bool is_measured = plan_.options.rest_poses == RestPoses::measured;
         if (is_measured && have_hip_joints()) {
             const bool have_legs = source_.has_legs() && target_.has_legs();
@@ -269,6 +270,7 @@ private:
             const std::uint32_t upper = moved_of_[plan_.limbs[k].upper];
             if (upper != kNone) plan_.moved[upper].limb = static_cast<std::uint32_t>(k);
             if (foot != nullptr) make_foot(*foot, source_.limbs()[k], limb);
+            plan_.limbs[k].is_arm = foot == nullptr;
             if (foot == nullptr) make_hand(plan_.hands.at(k - plan_.feet.size()), source_.limbs()[k].foot_joint());
         }
     }

@@ -89,6 +89,7 @@ struct LimbPlan {
     const Chain* chain = nullptr;  ///< of the target; null: `own`
     Chain own;
     bool can_reach = false;
+    bool is_arm = false;
     double length = 0.0;
     glm::dvec3 bend{0.0};  ///< unit: where knee or elbow point at rest, in the space of the upper joint
     /// Units: the upper bone and, across it, the side to which limits of knee or elbow let the lower bone bend, in the
@@ -125,6 +126,7 @@ struct RetargetPlan {
     SpaceMap map;
     glm::dvec3 source_up{0, 1, 0}, up{0, 1, 0};
     double source_leg = 1.0, leg = 1.0;  ///< metres: see Retarget::leg
+    double source_arm = 1.0;             ///< metres: from shoulder to hand
     bool is_human = true;
     std::vector<LimbPlan> limbs;      ///< see Body::limbs
     std::vector<FootPlan> feet;       ///< of the first limbs

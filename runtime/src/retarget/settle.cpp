@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace bendy {
 namespace {
@@ -37,6 +38,7 @@ struct LimbFrame {
     glm::dvec3 below{0.0};                ///< from its end to its foot or hand
     glm::dvec3 bend{0.0};                 ///< unit: where knee or elbow point
     glm::dquat turn{1.0, 0.0, 0.0, 0.0};  ///< of its end
+    double joined = 0.0;                  ///< how far `wanted` is decided by the other hand: 0 to 1
     double planted = 0.0;                 ///< how far `wanted` is decided by the ground: 0 to 1
 };
 
@@ -62,6 +64,7 @@ public:
             lay_again();
         }
         lower_hips();
+        if (plan_.options.plants_feet && plan_.is_human) join_hands(contacts);
         for (std::size_t k = 0; k < plan_.limbs.size(); ++k) {
             if (plan_.limbs[k].can_reach) finish(plan_.limbs[k], limbs_[k]);
         }
@@ -150,6 +153,27 @@ private:
             plant(plan_.feet.size() + k, hand, contact, state.stands.at(number), none);
         }
         for (std::size_t k = 0; k < plan_.limbs.size() && lying_ > 0.0; ++k) raise_end(k);
+    }
+
+    /// Hands that are near each other are as near on the target, in arm lengths, although its shoulders may be broader.
+    void join_hands(const std::optional<ContactWeights>& contacts) {
+        constexpr double kTogether = 0.25, kApart = 0.5;  // arm lengths
+        const std::size_t left = plan_.feet.size(), right = left + 1;
+        if (!plan_.limbs[left].can_reach || !plan_.limbs[right].can_reach) return;
+        const auto source_hand = [&](std::size_t k) {
+            return glm::dvec3(source_.fresh_matrix(plan_.hands.at(k).heel.source)[3]);
+        };
+        const glm::dvec3 way = source_hand(1) - source_hand(0);
+        const float found = eased(glm::length(way) / plan_.source_arm, kTogether, kApart);
+        const double weight = weight_of(Contact::hands, contacts, found);
+        if (!(weight > 0.0)) return;
+        LimbFrame &from = limbs_.at(left), &to = limbs_.at(right);
+        const double scale = plan_.limbs[left].length / plan_.source_arm;
+        const glm::dvec3 off = plan_.map.turn * (scale * way) - (to.wanted + to.below - from.wanted - from.below);
+        for (const auto& [limb, share] : {std::pair(&from, -0.5), std::pair(&to, 0.5)}) {
+            limb->wanted += share * weight * (1.0 - limb->planted) * off;
+            limb->joined = weight;
+        }
     }
 
     /// Hands and feet of who lies are not below the ground.
@@ -338,7 +362,8 @@ private:
     void finish(const LimbPlan& plan, const LimbFrame& limb) {
         constexpr double kThere = 1e-5;  // of the length
         double missed = distance_left(plan, limb);
-        if (limb.planted > 0.0 && missed > kThere * plan.length) missed = try_to_reach(plan, limb, missed);
+        if ((limb.planted > 0.0 || limb.joined > 0.0) && missed > kThere * plan.length)
+            missed = try_to_reach(plan, limb, missed);
         if (missed <= double{result_.missed}) return;
         result_.missed = static_cast<float>(missed);
         result_.missed_joint = plan.foot;
@@ -393,8 +418,8 @@ private:
                -kClearly * plan.length;
     }
 
-    /// Bends a limb that is straight, or bent to the wrong side, a little to the side that it bends to, so that a
-    /// solver continues from there. Turns neither of its bones about its axis.
+    /// Bends a limb that is straight, or a leg that is bent to the wrong side, a little to the side that it bends to,
+    /// so that a solver continues from there. Turns neither of its bones about its axis.
     void bend_a_little(const LimbPlan& plan, const LimbFrame& limb) {
         constexpr double kLeast = 0.03;  // of the length
         const glm::dvec3 start = place(plan.upper), middle = place(plan.lower), end = place(plan.end);
@@ -404,6 +429,7 @@ private:
         const auto across = [&](const glm::dvec3& v) { return v - way * (glm::dot(v, way) / length); };
         const glm::dvec3 side = across(limb.bend);
         if (!(glm::length(side) > 0.1)) return;
+        if (plan.is_arm && glm::length(across(middle - start)) > kLeast * plan.length) return;
         const double bent = glm::dot(middle - start, glm::normalize(side));
         if (bent > kLeast * plan.length) return;
         const glm::dvec3 moved = middle + (kLeast * plan.length - bent) * glm::normalize(side);
@@ -437,7 +463,9 @@ private:
         to_.set_rotation(plan.end, glm::quat(glm::normalize(glm::conjugate(space) * limb.turn)));
         if (plan_.options.limits == Limits::off) return;
         for (const std::uint32_t joint : {plan.upper, plan.lower, plan.end}) {
-            if (const Constraint* constraint = plan_.target.constraint(joint)) (void)constrain(*constraint);
+            const Constraint* constraint = plan_.target.constraint(joint);
+            // What is softened already is not softened again: a hand goes a short way.
+            if (constraint != nullptr && !(plan.is_arm && is_soft(*constraint))) (void)constrain(*constraint);
         }
     }
 

@@ -10,12 +10,6 @@
 namespace bendy {
 namespace {
 
-/// Returns 1 up to one height and 0 from another one on, smoothly.
-float eased(double height, double low, double high) {
-    const double share = std::clamp((high - height) / (high - low), 0.0, 1.0);
-    return static_cast<float>(share * share * (3.0 - 2.0 * share));
-}
-
 /// Returns how far a point of the source is above where it is at rest, in leg lengths.
 double height_of(const RetargetPlan& plan, const ContactPlan& contact, PoseState& source) {
     const glm::dvec3 place(source.fresh_matrix(contact.source)[3]);
@@ -58,6 +52,11 @@ private:
 };
 
 }  // namespace
+
+float eased(double number, double low, double high) {
+    const double share = std::clamp((high - number) / (high - low), 0.0, 1.0);
+    return static_cast<float>(share * share * (3.0 - 2.0 * share));
+}
 
 FootContact find_contact(const RetargetPlan& plan, const FootPlan& foot, PoseState& source, float last_toes) {
     constexpr double kHeelStands = 0.04, kHeelLeft = 0.15;  // leg lengths

@@ -30,6 +30,9 @@ struct FootContact {
     float heel = 0.0f, toes = 0.0f;
 };
 
+/// Returns 1 up to one number and 0 from another one on, smoothly.
+float eased(double number, double low, double high);
+
 /// Finds by the height of the source's heel and toes how firmly they stand. Toes touch the ground on their own only
 /// after the whole foot has: a foot that swings forward may be low too.
 FootContact find_contact(const RetargetPlan& plan, const FootPlan& foot, PoseState& source, float last_toes);

@@ -113,7 +113,8 @@ void add_edit(CLI::App& program) {
                      "program proposed, not beyond an author's; hard, beyond none; off, limits do not act")
         ->check(one_of({motion::kLimitsWords.begin(), motion::kLimitsWords.end()}))
         ->capture_default_str();
-    command->add_flag("--free-feet", arguments->free_feet, "of --retarget: do not bring feet to the ground");
+    command->add_flag("--free-feet", arguments->free_feet,
+                      "of --retarget: do not bring feet, hands and body to the ground, nor hands to each other");
     auto* const alike = command->add_flag(
         "--rests-alike", arguments->rests_alike,
         "of --retarget: both characters rest in the same pose, as VRM demands; joints then turn exactly as the "

@@ -75,6 +75,7 @@ inline constexpr const char* kContactNames[kContacts] = {"left_heel_contact",
                                                          "right_front_toes_contact",
                                                          "left_hand_contact",
                                                          "right_hand_contact",
-                                                         "body_contact"};
+                                                         "body_contact",
+                                                         "hands_contact"};
 
 }  // namespace bendy::motion

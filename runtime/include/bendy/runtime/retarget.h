@@ -51,8 +51,8 @@ struct RetargetOptions {
     RestPoses rest_poses = RestPoses::measured;
     Limits limits = Limits::soft;
     /// Moves feet and hands, while they touch the ground, as far as the source's move, times the length of the legs,
-    /// and keeps body, feet and hands from sinking into it. Has no effect on limbs with joints between their three that
-    /// have no IK chain.
+    /// and keeps body, feet and hands from sinking into it, and hands together that are near each other. Has no effect
+    /// on limbs with joints between their three that have no IK chain.
     bool plants_feet = true;
 };
 
@@ -80,7 +80,7 @@ std::string error_text(const RetargetError& error);
 
 /// What may touch the ground. Feet have two points of contact each; those of an animal's hind legs are named as a
 /// human's, and its heel is where the paw or the hoof begins. Of a human hands do, and the body of who sits, lies or
-/// kneels: head, trunk, thighs or knees.
+/// kneels: head, trunk, thighs or knees. Hands that are near each other, such as on one sword, are a contact, too.
 enum class Contact : std::uint8_t {
     left_heel,
     left_toes,
@@ -93,8 +93,9 @@ enum class Contact : std::uint8_t {
     left_hand,
     right_hand,
     body,
+    hands,
 };
-inline constexpr std::size_t kContacts = 11;
+inline constexpr std::size_t kContacts = 12;
 /// How firmly each of them stands on the ground: 0 in the air, 1 on the ground.
 using ContactWeights = std::array<float, kContacts>;
 
