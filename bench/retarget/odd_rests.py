@@ -94,7 +94,7 @@ def main():
     parser.add_argument("--to", dest="bodies", nargs="+", default=BODIES)
     parser.add_argument("--json", type=pathlib.Path)
     options = parser.parse_args()
-    bench = run.Bench(options.bendy.resolve(), [*options.chars, run.HERE.parent.parent / "examples"], options.work, ())
+    bench = run.Bench(options.bendy.resolve(), [*options.chars, run.HERE.parent.parent / "examples"], options.work, (), "off")
     run.install(bench.work)
     rigs = {pathlib.Path(rig["file"]).stem: rig for rig in json.loads(run.RIGS.read_text(encoding="utf-8"))}
     chosen = options.sources or [*SOURCES, *(name for name, rig in rigs.items() if "odd_rest" in rig)]

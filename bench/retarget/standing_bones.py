@@ -17,6 +17,7 @@ import run
 
 BONES = {
     "collarbone": ("leftShoulder", "leftUpperArm"), "foot": ("leftFoot", "leftToes"), "neck": ("neck", "head"),
+    "spine to neck": ("spine", "neck"),
     **{f"{bone} to the next": (bone, None) for bone in ("spine", "chest", "upperChest")},
 }
 SPINE = ("spine", "chest", "upperChest", "neck", "head")
@@ -97,7 +98,7 @@ def main():
     options = parser.parse_args()
     bodies = []
     with tempfile.TemporaryDirectory() as folder:
-        bench = run.Bench(options.bendy.resolve(), [], pathlib.Path(folder), ())
+        bench = run.Bench(options.bendy.resolve(), [], pathlib.Path(folder), (), "off")
         whole, body = (bench.work / name for name in ("whole.bendy", "body.bendy"))
         for path in options.files:
             try:
