@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bendy::motion::stand_test {
@@ -226,6 +228,38 @@ TEST(Stand, IsWhatRetargetingMeasuresFrom) {
     Pose c = put(third, standing, third_pose);
     Pose d = put(third, turned, third_pose);
     EXPECT_LT(worst(c, d), 2e-4f);
+}
+
+/// How the trunk leans in a moment of a clip does not say how it runs in the rig, as it does in a pose that is made to
+/// stand.
+TEST(Stand, OfAMomentTheTrunkHasTheSourcesDirections) {
+    constexpr double kBent = 10.0;
+    HumanModel bent(HumanSpec{.bent = kBent});
+    const HumanModel straight(HumanSpec{.axes = 2});
+    const Buffer straight_file = file_of(straight);
+    const auto target = Model::from_memory(straight_file);
+    for (const auto& [evidence, off] :
+         {std::pair(StandingEvidence::told, kBent), {StandingEvidence::clip, 0.0}, {StandingEvidence::assumed, 0.0}}) {
+        StandingPoseRecord record;
+        record.axes = {0.0f, 0.0f, 0.0f, 1.0f};
+        record.height = 1.58f;
+        record.evidence = static_cast<std::uint8_t>(evidence);
+        const auto file = edit::set_standing_pose(file_of(bent), record, {});
+        ASSERT_TRUE(file) << file.error().message;
+        const auto source = Model::from_memory(*file);
+        ASSERT_TRUE(source);
+        Pose from(*source), to(*target);
+        auto made = Retarget::make(*source, *target, {RestPoses::measured, Limits::off, false});
+        ASSERT_TRUE(made);
+        RetargetState state;
+        ASSERT_TRUE(retarget(to, *made, from, state));
+        const auto way = [](Pose& pose, const HumanModel& human) {
+            return glm::normalize(glm::dvec3(pose.model_space()[human.joint("spine2")][3]) -
+                                  glm::dvec3(pose.model_space()[human.joint("spine1")][3]));
+        };
+        const double cosine = glm::dot(way(from, bent), way(to, straight));
+        EXPECT_NEAR(std::acos(std::min(1.0, cosine)) * 180.0 / M_PI, off, 0.1) << static_cast<int>(evidence);
+    }
 }
 
 }  // namespace

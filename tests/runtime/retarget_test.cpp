@@ -121,8 +121,9 @@ TEST(Retarget, BonesOfAnOddRestPoseHaveTheSourcesDirections) {
         {"neck", "head"},         {"leftShoulder", "leftArm"}, {"rightShoulder", "rightArm"},
         {"leftFoot", "leftToes"}, {"rightFoot", "rightToes"}};
     Human plain(HumanSpec{.axes = 2});
-    for (const HumanSpec& spec : {HumanSpec{.collars_up = 90.0}, HumanSpec{.feet_down = 55.0}, HumanSpec{.bent = 40.0},
-                                  HumanSpec{.facing = 90.0, .collars_up = 60.0, .feet_down = 60.0, .bent = 35.0}}) {
+    for (const HumanSpec& spec :
+         {HumanSpec{.collars_up = 90.0}, HumanSpec{.feet_down = 55.0}, HumanSpec{.bent = 40.0}, HumanSpec{.bent = 18.0},
+          HumanSpec{.facing = 90.0, .collars_up = 60.0, .feet_down = 60.0, .bent = 35.0}}) {
         Human odd(spec);
         for (const auto& [source, target] : {std::pair(&plain, &odd), std::pair(&odd, &plain)}) {
             Retarget retargeted = made(*source, *target, kDirections);
@@ -138,9 +139,20 @@ TEST(Retarget, BonesOfAnOddRestPoseHaveTheSourcesDirections) {
     }
 }
 
+/// As CMU's, whose neck begins where the spine's last joint is.
+TEST(Retarget, ABoneWithoutLengthPointsAsTheOneBeforeIt) {
+    HumanModel odd(HumanSpec{.bent = 40.0, .axes = 3});
+    odd.spec.joints[odd.joint("neck")].rest.translation = {0.0f, 0.0f, 0.0f};
+    test::PosedBody<HumanModel> source(odd, 0.0), target(HumanModel(HumanSpec{}), 0.0);
+    Retarget retargeted = made(source, target, kDirections);
+    RetargetState state;
+    ASSERT_TRUE(retarget(target.pose(), retargeted, source.pose(), state));
+    EXPECT_LT(glm::length(source.way("spine1", "spine2") - target.way("spine2", "neck")), 2e-5);
+}
+
 TEST(Retarget, BonesThatDifferAsThoseOfRigsDoTurnAsTheSources) {
     Human source(HumanSpec{});
-    Human target(HumanSpec{.collars_up = 30.0, .feet_down = 20.0, .bent = 15.0, .axes = 2});
+    Human target(HumanSpec{.collars_up = 30.0, .feet_down = 20.0, .bent = 10.0, .axes = 2});
     Retarget retargeted = made(source, target, kDirections);
     for (unsigned seed = 0; seed < 10; ++seed) {
         source.pose_at_random(seed, 0.4);

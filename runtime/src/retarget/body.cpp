@@ -257,6 +257,12 @@ double Body::least_way() const {
     return kLeastWay * *std::max_element(lengths_.begin(), lengths_.end());
 }
 
+bool Body::stands_anyhow() const {
+    const auto evidence =
+        standing_pose_ ? static_cast<StandingEvidence>(standing_pose_->evidence) : StandingEvidence::told;
+    return evidence == StandingEvidence::clip || evidence == StandingEvidence::assumed;
+}
+
 bool Body::measure() {
     find_limbs();
     hips_ = place(base());

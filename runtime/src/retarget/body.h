@@ -87,6 +87,9 @@ public:
     [[nodiscard]] const glm::dvec3& ground() const { return ground_; }
     /// How far clips have the body above where its standing pose has it, metres along up.
     [[nodiscard]] double raised() const { return raised_; }
+    /// Whether it stands as in a moment of a clip, or as it is assumed to: how its bones run then does not say how they
+    /// run in its rig.
+    [[nodiscard]] bool stands_anyhow() const;
 
 private:
     void find_limbs();
