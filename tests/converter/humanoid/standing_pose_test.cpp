@@ -348,6 +348,65 @@ TEST(StandingPose, IsAssumedWhereNoFrameStands) {
         EXPECT_LT(degrees_off(scene, truth, joint), 3.0) << joint;
 }
 
+/// A stride in which both feet are at one height.
+void stride(Scene& scene) {
+    turn(scene, "leftUpperLeg", about({1, 0, 0}, -12.0));
+    turn(scene, "rightUpperLeg", about({1, 0, 0}, 12.0));
+    for (const char* foot : {"leftFoot", "rightFoot"})  // the soles stay level
+        turn(scene, foot, about({1, 0, 0}, foot[0] == 'l' ? 12.0 : -12.0));
+}
+
+TEST(StandingPose, IsAssumedWhereTheRestPoseIsAMomentOfAWalk) {
+    const Scene truth = human();
+    Scene scene = truth;
+    stride(scene);
+    Report report;
+    find(scene, report);
+    ASSERT_TRUE(scene.standing_pose.has_value());
+    EXPECT_EQ(evidence_of(scene), StandingEvidence::assumed);
+    EXPECT_EQ(warned(report, "its sides differ"), 1u);
+    for (const char* joint : {"hips", "chest", "leftUpperLeg", "rightUpperLeg"})
+        EXPECT_LT(degrees_off(scene, truth, joint), 3.0) << joint;
+}
+
+/// A stride shows that the body stands, but a T is nearer to how it does; feet are slanted as in the stride.
+TEST(StandingPose, IsATWhereAClipStandsByChance) {
+    const Scene truth = human();
+    Scene walking = truth;
+    stride(walking);
+    Scene scene = truth;
+    for (Joint& joint : scene.joints) set_rotation(joint.rest, glm::dquat(1, 0, 0, 0));
+    scene.clips = {frame_of(rest_of(walking))};
+    Report report;
+    find(scene, report);
+    ASSERT_TRUE(scene.standing_pose.has_value());
+    EXPECT_EQ(evidence_of(scene), StandingEvidence::assumed);
+    EXPECT_EQ(warned(report, "does not stand"), 0u);
+    for (const char* joint : {"hips", "leftUpperLeg", "rightUpperLeg", "leftFoot", "rightFoot"})
+        EXPECT_LT(degrees_off(scene, truth, joint), 3.0) << joint;
+}
+
+/// As the joints between hips and thighs of CMU's: without them the legs would hang where they rest.
+TEST(StandingPose, TurnsJointsBetweenThoseThatHaveARole) {
+    HumanoidGltf body;
+    for (const std::string side : {"left", "right"}) {
+        body.add(side + "HipJoint", "hips", {side == "left" ? 0.05 : -0.05, 1.0, 0.0});
+        body[side + "UpperLeg"].parent = side + "HipJoint";
+    }
+    const Scene truth = *body.build().import();
+    Scene scene = truth;
+    for (Joint& joint : scene.joints) set_rotation(joint.rest, glm::dquat(1, 0, 0, 0));
+    scene.clips = {frame_of(rest_of(truth))};
+    Report report;
+    find(scene, report);
+    ASSERT_TRUE(scene.standing_pose.has_value());
+    EXPECT_EQ(scene.standing_pose->rotations.size(), scene.roles.size() + 2);
+    EXPECT_LT(degrees_off(scene, truth, "leftHipJoint"), 0.1);
+    const std::vector<glm::dvec3> places = places_in_stand(scene);
+    const glm::dvec3 across = places[joint_named(scene, "leftUpperLeg")] - places[joint_named(scene, "rightUpperLeg")];
+    EXPECT_NEAR(across.x, 0.2, 1e-4);
+}
+
 /// Feet of some robots hang on nothing: STND, which has no translations, would leave them where the body lies.
 TEST(StandingPose, ThatLeavesPartsBehindIsNone) {
     HumanoidGltf robot;

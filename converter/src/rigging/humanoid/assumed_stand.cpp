@@ -70,8 +70,9 @@ std::optional<Rotation> turn_between(const Aims& aims) {
 
 class StandAssumer {
 public:
-    StandAssumer(const Scene& scene, const Humanoid& bones, const std::vector<Transform>& base)
-        : scene_(scene), bones_(bones), base_(scene, base), aims_(scene.joints.size()) {
+    StandAssumer(const Scene& scene, const Humanoid& bones, const std::vector<Transform>& base,
+                 const std::optional<glm::dvec3>& up)
+        : scene_(scene), bones_(bones), base_(scene, base), up_(up), aims_(scene.joints.size()) {
         most_bent_.fill(kLeastBend);
     }
 
@@ -163,24 +164,34 @@ private:
         const auto of_arms = across(Bone::left_shoulder);
         const auto of_chest = of_arms ? of_arms : across(Bone::left_upper_arm);
         aim(hips, of_hips, kLeft);
-        aim_side(hips, way(hips, column.empty() ? neck : column.front()), kUp);
+        // The lowest bone may be short and slanted, but where the body does not stand the spine is bent above it.
+        const std::uint32_t next = column.empty() ? neck : up_ ? column[column.size() / 2] : column.front();
+        aim_side(hips, up_from_hips(next), kUp);
         for (std::size_t k = 0; k < column.size(); ++k) {
             const double share = static_cast<double>(k + 1) / static_cast<double>(column.size());
             aim(column[k], way(column[k], k + 1 < column.size() ? column[k + 1] : neck), kUp);
             if (of_hips && of_chest) aim_side(column[k], unit(glm::mix(*of_hips, *of_chest, share)), kLeft);
         }
         if (neck != head) aim(neck, way(neck, head), kNeckStands);
-        const std::uint32_t crown = crown_of(head);
+        const std::uint32_t crown = end_of(head, "head");
         const auto eyes = across(Bone::left_eye);
         aim(head, way(head, crown), kCrownStands);
         if (crown != kNone) aim_side(head, eyes, kLeft);
     }
 
-    /// The end of the head, by its name: hair and hats are longer.
-    [[nodiscard]] std::uint32_t crown_of(std::uint32_t head) const {
-        for (std::uint32_t child = head + 1; child < scene_.joints.size(); ++child) {
+    /// The way from between the hip joints: the joint of the hips may be anywhere in the pelvis.
+    [[nodiscard]] std::optional<glm::dvec3> up_from_hips(std::uint32_t to) const {
+        const std::uint32_t left = bones_[Bone::left_upper_leg], right = bones_[Bone::right_upper_leg];
+        if (to == kNone) return std::nullopt;
+        if (left == kNone || right == kNone) return way(bones_[Bone::hips], to);
+        return unit(base_.position(to) - 0.5 * (base_.position(left) + base_.position(right)));
+    }
+
+    /// The end of a head or hand, by its name: hair and hats are longer, and thumbs point elsewhere.
+    [[nodiscard]] std::uint32_t end_of(std::uint32_t joint, const char* part) const {
+        for (std::uint32_t child = 0; joint != kNone && child < scene_.joints.size(); ++child) {
             const NameWords name(scene_.joints[child].name);
-            if (scene_.joints[child].parent == head && name.has("head") && name.is_helper()) return child;
+            if (scene_.joints[child].parent == joint && name.has(part) && name.is_helper()) return child;
         }
         return kNone;
     }
@@ -188,8 +199,18 @@ private:
     void aim_leg(bool right) {
         aim_bone(Bone::left_upper_leg, Bone::left_lower_leg, -kUp, right);
         aim_bone(Bone::left_lower_leg, Bone::left_foot, -kUp, right);
-        aim_bone(Bone::left_foot, Bone::left_toes, kFootStands, right);
+        aim_bone(Bone::left_foot, Bone::left_toes, foot_stands(), right);
         aim_bone(Bone::left_toes, kTip, kFront, right);
+    }
+
+    /// As slanted as both feet are in a pose that stands on them.
+    [[nodiscard]] glm::dvec3 foot_stands() const {
+        const auto left = way(bones_[Bone::left_foot], bones_[Bone::left_toes]);
+        const auto right = way(bones_[Bone::right_foot], bones_[Bone::right_toes]);
+        constexpr double kAlike = 0.14;  // 8 degrees
+        if (!up_ || !left || !right || std::abs(glm::dot(*left - *right, *up_)) > kAlike) return kFootStands;
+        const double rise = 0.5 * glm::dot(*left + *right, *up_);
+        return {0.0, rise, std::sqrt(std::max(0.0, 1.0 - rise * rise))};
     }
 
     void aim_arm(bool right) {
@@ -198,7 +219,12 @@ private:
         aim_bone(Bone::left_lower_arm, Bone::left_hand, kLeft, right);
         const Bone middle =
             bones_.has(Bone::left_middle_proximal) ? Bone::left_middle_proximal : Bone::left_index_proximal;
-        aim_bone(Bone::left_hand, middle, kLeft, right);
+        if (joint(middle, right) != kNone) {
+            aim_bone(Bone::left_hand, middle, kLeft, right);
+        } else {
+            const std::uint32_t hand = joint(Bone::left_hand, right);
+            aim(hand, way(hand, end_of(hand, "hand")), right ? mirrored_way(kLeft) : kLeft);
+        }
         aim_side(joint(Bone::left_hand, right),
                  way(joint(Bone::left_index_proximal, right), joint(Bone::left_little_proximal, right)), -kFront);
         for (auto bone = static_cast<unsigned>(Bone::left_index_proximal);
@@ -254,14 +280,16 @@ private:
     const Scene& scene_;
     const Humanoid& bones_;
     RestFrames base_;
+    std::optional<glm::dvec3> up_;
     std::vector<Aims> aims_;                              ///< by joint
     std::array<double, 2 * kHinges.size()> most_bent_{};  ///< by hinge and side
 };
 
 }  // namespace
 
-std::vector<Transform> assume_stand(const Scene& scene, const Humanoid& bones, const std::vector<Transform>& base) {
-    return StandAssumer(scene, bones, base).assume();
+std::vector<Transform> assume_stand(const Scene& scene, const Humanoid& bones, const std::vector<Transform>& base,
+                                    const std::optional<glm::dvec3>& up) {
+    return StandAssumer(scene, bones, base, up).assume();
 }
 
 }  // namespace bendy::converter

@@ -141,7 +141,7 @@ FoundBody find_body(const Scene& scene, const ClipRotations& clips, const std::v
     const auto rests = judge_stand(RestFrames(scene), named, up);
     const bool is_clear = is_human_by_name(at_rest.human) || (has_all_names(at_rest.human) && !has_skin(scene));
     if (is_clear && !(rests && rests->stands())) {
-        FoundBody body = find_in({StandingEvidence::assumed, assume_stand(scene, named, base)});
+        FoundBody body = find_in({StandingEvidence::assumed, assume_stand(scene, named, base, std::nullopt)});
         if (body.is_whole()) return body;
     }
     return at_rest;

@@ -27,6 +27,9 @@ using Bone = HumanBone;
 constexpr double kUpright = 35.0;   // degrees, of trunk and legs
 constexpr double kBentKnee = 40.0;  // degrees
 constexpr double kUneven = 0.03;    // of the height, between the feet
+constexpr double kStraight = 15.0;  // degrees: heads lie up to 10 in front of the hips
+constexpr double kUnlike = 6.0;     // degrees: bodies that are made to stand have 3 at most, walks 10 and more
+constexpr double kChance = 2.0;     // degrees: frames of clips in which the sides are less alike are so by chance
 
 constexpr double kNearUp = 0.82, kNearFront = 0.94, kAlong = 0.985;  // cosines: 35, 20 and 10 degrees
 
@@ -73,6 +76,14 @@ bool Standing::stands() const {
     return is_upright() && knees < kBentKnee && feet < kUneven;
 }
 
+bool Standing::is_straight() const {
+    return std::max(lean, legs) < kStraight;
+}
+
+bool Standing::is_made_to_stand() const {
+    return stands() && mirror < kUnlike;
+}
+
 double Standing::flaws() const {
     const auto square = [](double flaw, double usual) { return flaw * flaw / (usual * usual); };
     return square(lean, kUpright / 2.0) + square(legs, kUpright / 2.0) + square(knees, kBentKnee) +
@@ -81,9 +92,19 @@ double Standing::flaws() const {
 
 namespace {
 
+/// Degrees by which the left thigh is off the mirror image of the right one; 0 if nothing tells.
+double off_mirror(const RestFrames& pose, const Humanoid& bones, const glm::dvec3& left, const glm::dvec3& up) {
+    const auto across = unit_across(left, up);
+    const auto own = pose.direction(bones[Bone::left_upper_leg], bones[Bone::left_lower_leg]);
+    const auto other = pose.direction(bones[Bone::right_upper_leg], bones[Bone::right_lower_leg]);
+    if (!across || !own || !other) return 0.0;
+    return angle_between(*own, *other - 2.0 * glm::dot(*other, *across) * *across);
+}
+
 /// Where the body's ends are in a pose.
 struct Ends {
     glm::dvec3 head, tops, feet;  ///< tops: between the hip joints, where hips may be anywhere in the pelvis
+    glm::dvec3 hip_line;          ///< from the right hip joint to the left
 };
 
 std::optional<Ends> ends_of(const RestFrames& pose, const Humanoid& bones) {
@@ -93,9 +114,10 @@ std::optional<Ends> ends_of(const RestFrames& pose, const Humanoid& bones) {
     }
     const glm::dvec3 left = foot_of(pose, bones, Bone::left_lower_leg, Bone::left_foot);
     const glm::dvec3 right = foot_of(pose, bones, Bone::right_lower_leg, Bone::right_foot);
-    const glm::dvec3 tops =
-        0.5 * (pose.position(bones[Bone::left_upper_leg]) + pose.position(bones[Bone::right_upper_leg]));
-    return Ends{pose.position(bones[Bone::head]), tops, 0.5 * (left + right)};
+    const glm::dvec3 left_top = pose.position(bones[Bone::left_upper_leg]);
+    const glm::dvec3 right_top = pose.position(bones[Bone::right_upper_leg]);
+    return Ends{pose.position(bones[Bone::head]), 0.5 * (left_top + right_top), 0.5 * (left + right),
+                left_top - right_top};
 }
 
 }  // namespace
@@ -111,6 +133,7 @@ std::optional<Standing> judge_stand(const RestFrames& pose, const Humanoid& bone
     const double on_left = lowest_of_leg(pose, bones, Bone::left_lower_leg, Bone::left_foot, Bone::left_toes, up);
     const double on_right = lowest_of_leg(pose, bones, Bone::right_lower_leg, Bone::right_foot, Bone::right_toes, up);
     standing.feet = std::abs(on_left - on_right) / size;
+    standing.mirror = off_mirror(pose, bones, ends->hip_line, up);
     standing.has_head_on_top = true;
     for (const Bone bone : {Bone::hips, Bone::spine, Bone::chest, Bone::upper_chest, Bone::neck}) {
         if (bones.has(bone) && glm::dot(up, pose.position(bones[bone]) - ends->head) > 0.0)
@@ -250,6 +273,7 @@ std::optional<CandidatePose> find_standing_frame(const Scene& scene, const Human
     visit_frames(scene, [&](std::vector<Transform> locals) {
         const std::optional<Standing> standing = judge_stand(RestFrames(scene, locals), bones, up);
         const auto is_worse = [&] {
+            if (standing->is_made_to_stand() != best_so_far.is_made_to_stand()) return best_so_far.is_made_to_stand();
             if (standing->is_upright() != best_so_far.is_upright()) return best_so_far.is_upright();
             return standing->flaws() >= best_so_far.flaws();
         };
@@ -308,19 +332,42 @@ Humanoid humanoid_of(const std::vector<RoleRecord>& roles) {
     return bones;
 }
 
-/// The rest pose with the joints that have a role turned as they are in another pose: STND's meaning.
-std::vector<Transform> with_turns(const Scene& scene, const RestFrames& pose) {
+/// The joints that STND turns: those that have a role, and those between them that do not turn as at rest. By number.
+std::vector<std::uint32_t> list_standing(const Scene& scene, const std::vector<Transform>& locals) {
+    std::vector<bool> is_body(scene.joints.size()), is_above(scene.joints.size());
+    for (const RoleRecord& role : scene.roles) is_body[role.joint] = true;
+    for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {  // parents come first
+        const std::uint32_t parent = scene.joints[joint].parent;
+        is_above[joint] = parent != kNone && (is_above[parent] || is_body[parent]);
+    }
+    std::vector<bool> carries(scene.joints.size());
+    std::vector<std::uint32_t> found;
+    for (auto joint = static_cast<std::uint32_t>(scene.joints.size()); joint-- > 0;) {
+        const std::uint32_t parent = scene.joints[joint].parent;
+        if (parent != kNone && (is_body[joint] || carries[joint])) carries[parent] = true;
+        const bool is_between = is_above[joint] && carries[joint];
+        const bool is_turned = locals[joint].rotation != scene.joints[joint].rest.rotation;
+        if (is_body[joint] || (is_between && is_turned)) found.push_back(joint);
+    }
+    std::reverse(found.begin(), found.end());
+    return found;
+}
+
+/// The rest pose with some joints turned as they are in another pose: STND's meaning.
+std::vector<Transform> with_turns(const Scene& scene, const std::vector<Transform>& stands) {
+    const RestFrames pose(scene, stands);
+    const std::vector<std::uint32_t> standing = list_standing(scene, stands);
     std::vector<Transform> locals = rest_of(scene);
     std::vector<Rotation> turns;  // in model space
-    auto role = scene.roles.begin();
+    auto next = standing.begin();
     for (std::uint32_t joint = 0; joint < scene.joints.size(); ++joint) {
         const std::uint32_t parent = scene.joints[joint].parent;
         const Rotation above = parent == kNone ? Rotation(1.0, 0.0, 0.0, 0.0) : turns[parent];
         glm::vec4& q = locals[joint].rotation;
-        if (role != scene.roles.end() && role->joint == joint) {
+        if (next != standing.end() && *next == joint) {
             const Rotation own = glm::normalize(glm::conjugate(above) * pose.turn(joint));
             q = {own.x, own.y, own.z, own.w};
-            ++role;
+            ++next;
         }
         turns.push_back(glm::normalize(above * to_rotation({q.x, q.y, q.z, q.w})));
     }
@@ -362,12 +409,12 @@ std::optional<double> ground_of_clips(const Scene& scene, std::uint32_t hips, co
 std::optional<StandingPose> make_standing_pose(const Scene& scene, const Humanoid& bones, const glm::dvec3& up,
                                                const CandidatePose& from) {
     const RestFrames stands(scene, from.locals);
-    const RestFrames pose(scene, with_turns(scene, stands));
+    const RestFrames pose(scene, with_turns(scene, from.locals));
     const auto axes = axes_of(pose, bones, up);
     if (!axes) return std::nullopt;
     StandingPose standing;
-    for (const RoleRecord& role : scene.roles)
-        standing.rotations.push_back(standing_rotation(role.joint, to_record(stands.turn(role.joint))));
+    for (const std::uint32_t joint : list_standing(scene, from.locals))
+        standing.rotations.push_back(standing_rotation(joint, to_record(stands.turn(joint))));
     const auto [lowest, highest] = heights_of(scene, pose, up);
     constexpr double kNear = 0.02;  // of the height: feet dip into the ground
     const double of_clips = ground_of_clips(scene, bones[Bone::hips], up).value_or(lowest);
@@ -380,39 +427,52 @@ std::optional<StandingPose> make_standing_pose(const Scene& scene, const Humanoi
     return standing;
 }
 
-bool does_stand(const RestFrames& pose, const Humanoid& bones, const glm::dvec3& up) {
+bool is_made_to_stand(const RestFrames& pose, const Humanoid& bones, const glm::dvec3& up) {
     const std::optional<Standing> standing = judge_stand(pose, bones, up);
-    return standing && standing->stands();
+    return standing && standing->is_made_to_stand();
 }
 
-/// The pose to trust, if the rest pose does not stand. Each is judged as STND will keep it: joints that hang on
-/// nothing, as feet of some robots, stay where they rest.
-std::optional<CandidatePose> find_stand(const Scene& scene, const Humanoid& bones, const glm::dvec3& up) {
-    const auto stands = [&](const std::optional<CandidatePose>& pose) {
-        return pose && does_stand(RestFrames(scene, with_turns(scene, RestFrames(scene, pose->locals))), bones, up);
+/// The pose to trust, if the rest pose does not stand, and whether something shows that the body does.
+struct FoundStand {
+    std::optional<CandidatePose> pose;
+    bool is_shown = true;
+};
+
+/// Each pose is judged as STND will keep it: joints that hang on nothing, as feet of some robots, stay where they rest.
+FoundStand find_stand(const Scene& scene, const Humanoid& bones, const glm::dvec3& up, const Standing& rest) {
+    const auto judge = [&](const std::optional<CandidatePose>& pose) {
+        const auto judged =
+            pose ? judge_stand(RestFrames(scene, with_turns(scene, pose->locals)), bones, up) : std::nullopt;
+        return judged.value_or(Standing());
     };
     std::vector<CandidatePose> poses = find_bind_poses(scene);
     poses.push_back({StandingEvidence::rest_pose, rest_of(scene)});
     for (CandidatePose& candidate : poses) {
         auto pose = turn_upright(scene, bones, up, std::move(candidate));
-        if (stands(pose)) return pose;
+        if (judge(pose).is_made_to_stand()) return {std::move(pose)};
     }
-    const auto frame = find_standing_frame(scene, bones, up);
-    if (frame) {
-        auto pose = turn_to_front(scene, bones, up, up, *frame);  // in its clips a body looks anywhere
-        if (stands(pose)) return pose;
-    }
+    const auto best = find_standing_frame(scene, bones, up);
+    auto frame =
+        best ? turn_to_front(scene, bones, up, up, *best) : std::nullopt;  // in its clips a body looks anywhere
+    const Standing in_clip = judge(frame);
+    if (in_clip.is_made_to_stand() && in_clip.is_straight() && in_clip.mirror < kChance) return {std::move(frame)};
     auto assumed =
         turn_to_front(scene, bones, {0.0, 1.0, 0.0}, up,
-                      {StandingEvidence::assumed, assume_stand(scene, bones, frame ? frame->locals : rest_of(scene))});
-    return stands(assumed) ? assumed : std::nullopt;
+                      {StandingEvidence::assumed, assume_stand(scene, bones, best ? best->locals : rest_of(scene),
+                                                               in_clip.stands() ? std::optional(up) : std::nullopt)});
+    // A T is upright, unless parts of the body hang on nothing.
+    const Standing as_t = judge(assumed);
+    const bool is_better = in_clip.stands() && as_t.flaws() < in_clip.flaws();
+    if (as_t.is_made_to_stand() && (as_t.is_straight() || is_better)) return {std::move(assumed), in_clip.stands()};
+    if (rest.stands() && rest.flaws() < in_clip.flaws()) return {std::nullopt};
+    return {in_clip.stands() ? std::move(frame) : std::nullopt, in_clip.stands()};
 }
 
 std::string why_not(const Standing& standing) {
     const auto degrees = [](double angle) { return std::to_string(std::lround(angle)) + " degrees"; };
     if (!standing.is_upright()) return "its trunk is " + degrees(standing.lean) + " from upright";
     if (standing.knees >= kBentKnee) return "a knee is bent by " + degrees(standing.knees);
-    return "one foot is above the other";
+    return standing.feet >= kUneven ? "one foot is above the other" : "its sides differ";
 }
 
 }  // namespace
@@ -453,13 +513,13 @@ void find_standing_pose(Scene& scene, Report& report) {
     if (scene.standing_pose || scene.roles.empty()) return;
     const Humanoid bones = humanoid_of(scene.roles);
     const RestFrames frames(scene);
-    if (does_stand(frames, bones, {0.0, 1.0, 0.0})) return;
+    if (is_made_to_stand(frames, bones, {0.0, 1.0, 0.0})) return;
     const glm::dvec3 up = find_up(scene, bones);
     const std::optional<Standing> rest = judge_stand(frames, bones, up);
-    if (!rest || rest->stands()) return;  // the file has another axis up than glTF
-    const std::optional<CandidatePose> found = find_stand(scene, bones, up);
-    if (found) scene.standing_pose = make_standing_pose(scene, bones, up, *found);
-    if (scene.standing_pose && found->evidence != StandingEvidence::assumed) return;
+    if (!rest || rest->is_made_to_stand()) return;  // the file has another axis up than glTF
+    const FoundStand found = find_stand(scene, bones, up, *rest);
+    if (found.pose) scene.standing_pose = make_standing_pose(scene, bones, up, *found.pose);
+    if (found.is_shown && (scene.standing_pose || rest->stands())) return;
     report.warn("the body does not stand in its rest pose (" + why_not(*rest) + "), nor in a clip: " +
                 (scene.standing_pose ? "that it stands as a T of its bones is assumed"
                                      : "clips are retargeted to and from it as if it did") +

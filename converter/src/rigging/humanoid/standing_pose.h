@@ -18,16 +18,21 @@ namespace bendy::converter {
 
 /// How well a human stands in a pose, about an axis that points up.
 struct Standing {
-    double lean = 180.0;   ///< degrees from up to the line from the hip joints to the head
-    double legs = 180.0;   ///< degrees from up to the line from the feet to the hip joints
-    double knees = 180.0;  ///< degrees by which the more bent knee is off straight
-    double feet = 1.0;     ///< how far one foot's lowest joint is above the other's, as a share of the height
+    double lean = 180.0;    ///< degrees from up to the line from the hip joints to the head
+    double legs = 180.0;    ///< degrees from up to the line from the feet to the hip joints
+    double knees = 180.0;   ///< degrees by which the more bent knee is off straight
+    double feet = 1.0;      ///< how far one foot's lowest joint is above the other's, as a share of the height
+    double mirror = 180.0;  ///< degrees by which one thigh is off the other's mirror image
     bool has_head_on_top = false;
 
     /// Whether trunk and legs are upright, whatever knees and feet do.
     [[nodiscard]] bool is_upright() const;
+    /// Whether trunk and legs hardly lean.
+    [[nodiscard]] bool is_straight() const;
     /// Whether it stands on both feet.
     [[nodiscard]] bool stands() const;
+    /// Whether it does with both sides alike: a walk has frames that stand, too.
+    [[nodiscard]] bool is_made_to_stand() const;
     /// 0 for a body that stands perfectly, more for less.
     [[nodiscard]] double flaws() const;
 };
@@ -52,7 +57,8 @@ CandidatePose turned(const Scene& scene, const Rotation& turn, CandidatePose pos
 /// is none.
 glm::dvec3 find_up(const Scene& scene, const Humanoid& bones);
 
-/// The frame of all clips in which the human stands best, an upright one if there is any. Nothing if there are none.
+/// The frame of all clips in which the human stands best: as if made to, or else an upright one. Nothing if there are
+/// none.
 /// \param up  an axis
 std::optional<CandidatePose> find_standing_frame(const Scene& scene, const Humanoid& bones, const glm::dvec3& up);
 
@@ -67,9 +73,9 @@ std::optional<CandidatePose> turn_upright(const Scene& scene, const Humanoid& bo
 /// \param faces_front  the body is to face +Z, up to 45 degrees
 void orient(Scene& scene, SourceUp up, bool faces_front, Report& report);
 
-/// Sets Scene::standing_pose for a human whose rest pose does not stand. Leaves the one that the scene has. Bind
-/// matrices are trusted first, then the rest pose turned upright, then a frame of a clip that stands. If there is none,
-/// warns that a T of the body's bones is assumed, or that nothing is.
+/// Sets Scene::standing_pose for a human whose rest pose is not made to stand. Leaves the one that the scene has. Bind
+/// matrices are trusted first, then the rest pose turned upright, then a frame of a clip, if they are made to stand,
+/// then a T of the body's bones. Warns if no frame stands either, or if nothing is known.
 void find_standing_pose(Scene& scene, Report& report);
 
 }  // namespace bendy::converter
