@@ -107,11 +107,15 @@ struct Ends {
     glm::dvec3 hip_line;          ///< from the right hip joint to the left
 };
 
+bool has_ends(const Humanoid& bones) {
+    constexpr std::array kEnds{
+        Bone::hips,           Bone::head, Bone::left_upper_leg, Bone::left_lower_leg, Bone::right_upper_leg,
+        Bone::right_lower_leg};
+    return std::all_of(kEnds.begin(), kEnds.end(), [&](Bone bone) { return bones.has(bone); });
+}
+
 std::optional<Ends> ends_of(const RestFrames& pose, const Humanoid& bones) {
-    for (const Bone bone : {Bone::hips, Bone::head, Bone::left_upper_leg, Bone::left_lower_leg, Bone::right_upper_leg,
-                            Bone::right_lower_leg}) {
-        if (!bones.has(bone)) return std::nullopt;
-    }
+    if (!has_ends(bones)) return std::nullopt;
     const glm::dvec3 left = foot_of(pose, bones, Bone::left_lower_leg, Bone::left_foot);
     const glm::dvec3 right = foot_of(pose, bones, Bone::right_lower_leg, Bone::right_foot);
     const glm::dvec3 left_top = pose.position(bones[Bone::left_upper_leg]);
@@ -256,6 +260,7 @@ std::optional<glm::dvec3> own_up(const RestFrames& pose, const Humanoid& bones) 
 glm::dvec3 find_up(const Scene& scene, const Humanoid& bones) {
     constexpr double kSteady = 0.8;  // length of the mean of unit vectors
     constexpr glm::dvec3 kModelUp(0.0, 1.0, 0.0);
+    if (!has_ends(bones)) return kModelUp;
     glm::dvec3 sum(0.0);
     double frames = 0.0;
     visit_frames(scene, [&](const std::vector<Transform>& locals) {
@@ -269,6 +274,7 @@ glm::dvec3 find_up(const Scene& scene, const Humanoid& bones) {
 
 std::optional<CandidatePose> find_standing_frame(const Scene& scene, const Humanoid& bones, const glm::dvec3& up) {
     std::optional<CandidatePose> best;
+    if (!has_ends(bones)) return best;
     Standing best_so_far;
     visit_frames(scene, [&](std::vector<Transform> locals) {
         const std::optional<Standing> standing = judge_stand(RestFrames(scene, locals), bones, up);
