@@ -12,13 +12,16 @@
 #include <cstdlib>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 // bendy_bench_body_reach [TARGETS] FILE...: full-body IK, hands, feet and head at once, on humans with roles and limits
 // (convert --auto-rig). Reachable targets are made by posing the human at random inside its limits: each joint by up to
 // 1 radian about each axis, the hips up to half of the range in which the solver may move and turn them. Every solve
 // starts at rest. Prints how many sets of five targets are reached within 1 mm times the human's height in units of 1.7
-// m, violated constraints, and microseconds, the least of three tries each. One core.
+// m, violated constraints, and microseconds, the least of three tries each; and jumps: where the targets go from one
+// set to the next within a second of 60 frames, the share of frames in which a joint turns by over 5 degrees more than
+// three times what the targets move, in halves of the height. One core.
 namespace {
 
 using namespace bendy;
@@ -44,7 +47,7 @@ public:
         }
         height_ = high - low;
         for (const Effector& one : effectors) {
-            for (std::uint32_t joint = one.joint; joint != root_; joint = model.parents()[joint])
+            for (std::uint32_t joint = one.joint; joint != root_ && joint != kNone; joint = model.parents()[joint])
                 moving_.push_back(joint);
         }
         std::sort(moving_.begin(), moving_.end());
@@ -56,15 +59,12 @@ public:
 
     void run(int count) {
         auto body = BodyReach::make(model_, effectors_, options_);
-        if (!body) std::exit((std::printf("%s\n", error_text(body.error())), 1));
+        if (!body) return (void)std::printf("| %s |\n", error_text(body.error()));
         int reached = 0, within = 0;
         double worst_violation = 0.0, iterations = 0.0;
         std::vector<double> times;
         for (int k = 0; k < count; ++k) {
-            pose_at_random();
-            std::vector<EffectorTarget> targets;
-            for (const Effector& one : effectors_)
-                targets.push_back({glm::vec3(posed_.model_space()[one.joint][3]), {}});
+            const std::vector<EffectorTarget> targets = random_targets();
             double least = 1e9;  // of several tries: other programs interrupt
             BodyReached result;
             for (int again = 0; again < 3; ++again) {
@@ -98,12 +98,55 @@ public:
         std::sort(times.begin(), times.end());
         double sum = 0.0;
         for (const double t : times) sum += t;
-        std::printf("| %.1f | %.1f | %.1e | %.1f | %.0f / %.0f / %.0f |\n", 100.0 * within / count,
+        std::printf("| %.1f | %.1f | %.1e | %.1f | %.0f / %.0f / %.0f / %.0f | %.2f %% |\n", 100.0 * within / count,
                     100.0 * reached / count, worst_violation, iterations / count, sum / count, times[times.size() / 2],
-                    times[times.size() * 99 / 100]);
+                    times[times.size() * 99 / 100], times.back(), 100.0 * share_of_jumps(*body, 1 + count / 50));
     }
 
 private:
+    std::vector<EffectorTarget> random_targets() {
+        pose_at_random();
+        std::vector<EffectorTarget> targets;
+        for (const Effector& one : effectors_) targets.push_back({glm::vec3(posed_.model_space()[one.joint][3]), {}});
+        return targets;
+    }
+
+    /// The targets go from one set to the next in a second of 60 frames, some of them out of reach on the way.
+    double share_of_jumps(BodyReach& body, int ways) {
+        constexpr int kFrames = 60;
+        constexpr double kMost = 5.0 * 3.14159265358979 / 180.0;
+        int jumps = 0;
+        std::vector<EffectorTarget> to = random_targets();
+        for (int way = 0; way < ways; ++way) {
+            const std::vector<EffectorTarget> from = std::exchange(to, random_targets());
+            std::vector<glm::dquat> before;
+            for (int frame = 0; frame <= kFrames; ++frame) {
+                std::vector<EffectorTarget> targets = from;
+                double moved = 0.0;
+                for (std::size_t e = 0; e < targets.size(); ++e) {
+                    const glm::vec3 all = to[e].position - from[e].position;
+                    targets[e].position += all * (static_cast<float>(frame) / kFrames);
+                    moved = std::max(moved, double{glm::length(all)} / kFrames);
+                }
+                pose_.set_rest();
+                if (!reach(pose_, body, targets)) std::exit(1);
+                double most = 0.0;
+                for (std::size_t i = 0; i < moving_.size(); ++i) {
+                    const glm::dquat now(pose_.local(moving_[i]).rotation);
+                    if (frame > 0) {
+                        const double same = std::min(1.0, std::abs(glm::dot(glm::normalize(now), before[i])));
+                        most = std::max(most, 2.0 * std::acos(same));
+                        before[i] = glm::normalize(now);
+                    } else {
+                        before.push_back(glm::normalize(now));
+                    }
+                }
+                jumps += most > kMost + 3.0 * moved / (0.5 * height_) ? 1 : 0;
+            }
+        }
+        return static_cast<double>(jumps) / (ways * kFrames);
+    }
+
     void pose_at_random() {
         std::uniform_real_distribution<double> angle(-1.0, 1.0);
         posed_.set_rest();
@@ -144,8 +187,8 @@ private:
 int main(int count, char** arguments) {
     int targets = 10000;
     std::printf(
-        "| human | %% within 1 mm | %% reached | violation, rad | iterations | us, mean / median / 99 %% "
-        "|\n|---|---|---|---|---|---|\n");
+        "| human | %% within 1 mm | %% reached | violation, rad | iterations | us, mean / median / 99 %% / "
+        "most | jumps |\n|---|---|---|---|---|---|---|\n");
     for (int k = 1; k < count; ++k) {
         if (const int number = std::atoi(arguments[k]); number > 0) {
             targets = number;

@@ -1,4 +1,4 @@
-#include "ik/limit_chart.h"
+#include "pose/ik_link.h"
 
 #include <bendy/runtime/constrain.h>
 #include <bendy/runtime/constraint.h>
@@ -31,6 +31,7 @@ std::vector<ConstraintView> limits() {
             make(ConstraintModel::swing_twist_ellipse, {-0.3f, 0.0f, -0.5f}, {0.3f, 0.0f, 1.5f}),
             make(ConstraintModel::swing_twist_pyramid, {-0.5f, -0.2f, -0.6f}, {0.5f, 0.2f, 2.0f}),
             make(ConstraintModel::euler_box, {-0.4f, -0.5f, -0.6f}, {1.0f, 0.8f, 0.7f}),
+            make(ConstraintModel::largest_angle, {}, {1.0f, 0, 0}),
             make(ConstraintModel::free, {}, {})};
 }
 
@@ -68,8 +69,8 @@ void visit(const Function& function) {
             const glm::dquat R = clamp_rotation(constraint, any_rotation(random));
             link.local = link.rest_frame * R * glm::conjugate(link.frame);
             LimitChart chart;
-            ASSERT_TRUE(chart.begin(link));
-            chart.read(link);
+            chart.begin(link);
+            (void)chart.read(link, link.local);
             function(constraint, link, chart, random);
         }
     }
@@ -119,36 +120,69 @@ TEST(LimitChart, NoStepLeavesTheLimits) {
     });
 }
 
-TEST(LimitChart, KnowsTheEdgeOfAnEllipse) {
-    const Constraint constraint = make_constraint(limits()[1]);
+TEST(LimitChart, FollowsTheEdgeOfAnEllipseAndOfTheLargestAngle) {
+    for (const std::size_t which : {1u, 5u}) {
+        const Constraint constraint = make_constraint(limits()[which]);
+        IkLink link = link_of(constraint);
+        link.local = link.rest_frame * glm::conjugate(link.frame);
+        LimitChart chart;
+        chart.begin(link);
+        (void)chart.read(link, link.local);
+        EXPECT_FALSE(chart.ways()[0].is_at_high);
+        (void)chart.move({3.0, 0.2, 0.0});
+        const auto ways = chart.ways();
+        ASSERT_TRUE(ways[0].is_at_high);
+        EXPECT_TRUE(ways[0].is_stopped(-1.0));
+        EXPECT_FALSE(ways[0].is_stopped(1.0));
+        const LimitChart::Numbers at = chart.values();
+        // A step along the edge leaves it by its curvature only, a step inward leaves it.
+        constexpr double kStep = 1e-3;
+        const auto go = [&](const LimitChart::Numbers& way, double step) {
+            chart.set(at);
+            (void)chart.move({step * way[0], step * way[1], step * way[2]});
+        };
+        for (std::size_t along = 1; along < (which == 1 ? 2u : 3u); ++along) {
+            const double curvature = ways.at(along).curvature;
+            go(ways.at(along).numbers, kStep);
+            double off = 0.0;
+            for (std::size_t n = 0; n < 3; ++n) off += (chart.values()[n] - at[n]) * ways[0].numbers[n];
+            EXPECT_GT(curvature, 0.1);
+            EXPECT_NEAR(off, -0.5 * curvature * kStep * kStep, 0.1 * curvature * kStep * kStep);
+        }
+        go(ways[0].numbers, -kStep);
+        EXPECT_FALSE(chart.ways()[0].is_at_high);
+    }
+}
+
+TEST(LimitChart, ClampsStepsWhereAnEllipseHasAFreeAxis) {
+    constexpr float kFree = ConstraintRecord::kFree;
+    const Constraint constraint =
+        make_constraint(make(ConstraintModel::swing_twist_ellipse, {-1.5f, -kFree, -1.2f}, {0.4f, kFree, 0.3f}));
     IkLink link = link_of(constraint);
     link.local = link.rest_frame * glm::conjugate(link.frame);
     LimitChart chart;
-    ASSERT_TRUE(chart.begin(link));
-    chart.read(link);
-    EXPECT_FALSE(chart.edge().is_there);
-    (void)chart.move({3.0, 0.2, 0.0});
-    const LimitChart::Edge edge = chart.edge();
-    ASSERT_TRUE(edge.is_there);
-    const LimitChart::Numbers at = chart.values();
-    // A step along the edge leaves it by its curvature only, a step inward leaves it.
-    constexpr double kStep = 1e-3;
-    (void)chart.move({-kStep * edge.z, kStep * edge.y, 0.0});
-    const double off = (chart.values()[0] - at[0]) * edge.y + (chart.values()[1] - at[1]) * edge.z;
-    EXPECT_NEAR(off, -0.5 * edge.curvature * kStep * kStep, 0.1 * edge.curvature * kStep * kStep);
-    chart.set(at);
-    (void)chart.move({-kStep * edge.y, -kStep * edge.z, 0.0});
-    EXPECT_FALSE(chart.edge().is_there);
+    chart.begin(link);
+    (void)chart.read(link, link.local);
+    const glm::dquat moved = chart.step(link, {0.3, 0.9, -1.2});
+    EXPECT_LT(violation(constraint, in_limits(link, moved)), 1e-6);
+    EXPECT_GT(std::abs(1.0 - std::abs(glm::dot(moved, link.local))), 0.1);
 }
 
-TEST(LimitChart, LeavesOtherLimitsToOtherSolvers) {
-    ConstraintView soft = limits()[0];
-    soft.record.soft_zone = 0.1f;
-    for (const ConstraintView& view : {soft, make(ConstraintModel::largest_angle, {}, {1.0f, 0.0f, 0.0f})}) {
-        const Constraint constraint = make_constraint(view);
-        LimitChart chart;
-        EXPECT_FALSE(chart.begin(link_of(constraint)));
-    }
+TEST(LimitChart, HalvesAStepIntoASoftZone) {
+    ConstraintView view = limits()[0];
+    view.record.soft_zone = 0.5f;
+    const Constraint constraint = make_constraint(view);
+    IkLink link = link_of(constraint);
+    link.local = link.rest_frame * glm::conjugate(link.frame);
+    LimitChart chart;
+    chart.begin(link);
+    (void)chart.read(link, link.local);
+    link.local = chart.step(link, {1.6, 0.0, 0.0});
+    EXPECT_NEAR(chart.values()[0], 1.6, 1e-9);
+    link.local = chart.step(link, {0.4, 0.0, 0.0});
+    EXPECT_NEAR(chart.values()[0], 1.8, 1e-9);
+    link.local = chart.step(link, {-0.4, 0.0, 0.0});
+    EXPECT_NEAR(chart.values()[0], 1.4, 1e-9);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct BodyLink : IkLink {
     std::uint32_t effectors = 0;   ///< a bit for each that it moves
     std::size_t group = 0;
     glm::dvec3 offset{0.0};  ///< from the parent, in its orientation
-    glm::dvec3 force{0.0};   ///< of a step: the sum over its effectors
+    glm::dvec3 force{0.0};   ///< the sum over its effectors
     glm::dvec3 torque{0.0};  ///< about model space's origin
 };
 
@@ -66,18 +67,11 @@ struct BodyReachPlan {
 
 namespace {
 
+/// Of the root's shift, beside a turn in radians: moving the whole body is the second choice.
+constexpr double kRootFreedom = 0.25;
+
 double weight_of(float weight) {
     return weight > 0.0f ? std::min(double{weight}, 1.0) : 0.0;
-}
-
-/// Returns m [v]x: see cross_matrix.
-glm::dmat3 times_cross(const glm::dmat3& m, const glm::dvec3& v) {
-    return {v.z * m[1] - v.y * m[2], v.x * m[2] - v.z * m[0], v.y * m[0] - v.x * m[1]};
-}
-
-/// Returns [v]x m.
-glm::dmat3 cross_times(const glm::dvec3& v, const glm::dmat3& m) {
-    return {glm::cross(v, m[0]), glm::cross(v, m[1]), glm::cross(v, m[2])};
 }
 
 double square(double x) {
@@ -117,29 +111,22 @@ public:
         }
         return sum;
     }
-    void try_step(double damping) {
-        for (BodyLink& link : links_) {
-            if (link.freedom == glm::dvec3(1.0)) {
-                link.mobility = glm::dmat3(1.0);
-            } else {
-                set_mobility(link);
-            }
-        }
-        trial_shift_ = shift_;
-        // Moving the whole body is the second choice.
-        constexpr double kRootFreedom = 0.25;
-        for (int axis = 0; axis < 3; ++axis) root_mobility_[axis] = most_shift_[axis] > 0.0 ? kRootFreedom : 0.0;
-        constexpr int kRounds = 3;
-        for (int round = 0; round < kRounds; ++round) {
-            gather_matrix();
-            gather_errors();
-            solve_damped(plan_.A.data(), stride_, rows_, damping, plan_.y.data());
-            if (!apply()) return;
-        }
+    [[nodiscard]] Measured measure() const {
+        Measured now = measured(links_, cost());
+        now.turns += glm::dot(shift_, shift_) / kRootFreedom;
+        return now;
     }
-    void swap() {
-        for (BodyLink& link : links_) std::swap(link.local, link.trial);
-        std::swap(shift_, trial_shift_);
+    void take_step(double spring, double damping) {
+        gather_errors();
+        sum_forces();
+        open_ways(spring);
+        gather_matrix();
+        solve_damped(plan_.A.data(), stride_, rows_, damping, plan_.y.data());
+        apply();
+    }
+    void take_back_step() {
+        for (BodyLink& link : links_) bendy::take_back_step(link);
+        shift_ = shift_before_;
         place();
     }
 
@@ -178,7 +165,7 @@ private:
         const float tolerance = plan_.options.tolerance;
         if (tolerance > 0.0f) tolerance_ = std::max(double{tolerance} / size_, 1e-9);
         for (BodyLink& link : links_) gather_link(link);
-        start_ = links_[0].local;
+        links_[0].chart.begin_within(links_[0], plan_.options.root_turn, links_[0].local);
         start_translation_ = glm::dvec3(state_.local_of(links_[0].joint).translation);
         origin_ = links_[0].position;
         most_shift_ = glm::dvec3(plan_.options.root_shift) / size_;
@@ -197,8 +184,9 @@ private:
         const bool is_locked = link.constraint != nullptr && link.constraint->model() == ConstraintModel::locked;
         const bool is_fixed_root = link.parent == kNone && !(plan_.options.root_turn > 0.0f);
         link.is_fixed = is_locked || is_fixed_root || link.freedom == glm::dvec3(0.0);
-        if (is_fixed_root) link.freedom = glm::dvec3(0.0);
-        link.local = nearest_legal_local(link, glm::normalize(glm::dquat(state_.local_of(link.joint).rotation)));
+        link.local = legal_local(link, glm::normalize(glm::dquat(state_.local_of(link.joint).rotation)));
+        link.saved = link.local;
+        link.chart.begin(link);
     }
 
     /// Sets places and offsets from the pose's matrices.
@@ -250,49 +238,32 @@ private:
     }
 
     std::uint32_t solve() {
-        std::uint32_t iterations = descend_damped(*this, plan_.options.iterations);
-        double best = cost();
-        save();
-        Dice dice;
-        for (std::uint32_t attempt = 0; attempt < plan_.options.restarts && !is_reached(); ++attempt) {
-            begin_anew(attempt, dice);
+        std::uint32_t iterations = 0;
+        double best = std::numeric_limits<double>::infinity();
+        for (std::uint32_t attempt = 0; attempt <= plan_.options.restarts && !is_reached(); ++attempt) {
+            if (attempt > 0) begin_anew(attempt);
+            for (BodyLink& link : links_) link.chart.read(link, link.local);
             iterations += descend_damped(*this, plan_.options.iterations);
             // If two results are nearly equal, the first counts: rounding must not choose between them.
             constexpr double kNearer = 0.99;
-            if (is_reached() || cost() < kNearer * best) {
-                best = cost();
-                save();
-            } else {
-                restore();
-            }
+            const bool is_best = is_reached() || cost() < kNearer * best;
+            if (is_best) best = cost();
+            (is_best ? best_shift_ : shift_) = is_best ? shift_ : best_shift_;
+            for (BodyLink& link : links_) (is_best ? link.best : link.local) = is_best ? link.local : link.best;
+            if (!is_best) place();
         }
         return iterations;
     }
 
-    void save() {
-        for (BodyLink& link : links_) link.saved = link.local;
-        saved_shift_ = shift_;
-    }
-    void restore() {
-        for (BodyLink& link : links_) link.local = link.saved;
-        shift_ = saved_shift_;
-        place();
-    }
-
-    /// Sets the links that move only effectors that are short of their targets to other legal rotations, and in every
-    /// second attempt all that move one of them.
-    void begin_anew(std::uint32_t attempt, Dice& dice) {
+    /// Sets the links that move only effectors that are short of their targets to the middle of their limits or to
+    /// rest, and in every second attempt all that move one of them.
+    void begin_anew(std::uint32_t attempt) {
         std::uint32_t short_of = 0;
         for (std::size_t k = 0; k < tips_.size(); ++k) short_of |= is_there(tips_[k]) ? 0u : 1u << k;
         for (BodyLink& link : links_) {
             const bool is_chosen =
-                attempt % 2 == 0 ? (link.effectors & ~short_of) == 0 : (link.effectors & short_of) != 0;
-            if (!is_chosen || link.is_fixed || link.parent == kNone) continue;
-            glm::dvec3 turn(0.0);  // about the frame's axes
-            // One at a time: the evaluation order of arguments is up to the compiler.
-            for (int axis = 2; axis >= 0; --axis) turn[axis] = dice.next() * 2.0;
-            link.local = legal_local(
-                link, glm::normalize(link.rest_frame * from_vector(turn * link.freedom) * glm::conjugate(link.frame)));
+                attempt % 2 == 1 ? (link.effectors & ~short_of) == 0 : (link.effectors & short_of) != 0;
+            if (is_chosen && !link.is_fixed && link.parent != kNone) link.local = middle_local(link);
         }
         place();
     }
@@ -308,8 +279,8 @@ private:
     /// Sums J mobility J^T over the links, J of each: a rotation w moves a tip by cross(w, arm), and rotates it by w.
     void gather_matrix() {
         for (std::size_t row = 0; row < rows_; ++row) std::fill_n(&plan_.A[row * stride_], row + 1, 0.0);
-        const glm::dmat3 shifts(glm::dvec3(root_mobility_.x, 0.0, 0.0), glm::dvec3(0.0, root_mobility_.y, 0.0),
-                                glm::dvec3(0.0, 0.0, root_mobility_.z));
+        glm::dmat3 shifts(0.0);
+        for (int axis = 0; axis < 3; ++axis) shifts[axis][axis] = root_mobility_[axis];
         for (const BodyTip& tip : tips_) {
             for (const BodyTip* other = tips_.data(); other <= &tip; ++other) {
                 if (tip.weight * other->weight > 0.0)
@@ -318,13 +289,13 @@ private:
         }
         for (BodyGroup& group : plan_.groups) group.turns = group.first = group.second = glm::dmat3(0.0);
         for (const BodyLink& link : links_) {
-            if (link.is_fixed) continue;
+            if (link.way_count == 0) continue;
             BodyGroup& group = plan_.groups[link.group];
             const glm::dvec3 arm = link.position - links_[0].position;
-            const glm::dmat3 moved = times_cross(link.mobility, arm);
+            const glm::dmat3 moved = link.mobility * cross_matrix(arm);
             group.turns += link.mobility;
             group.first += moved;
-            group.second += cross_times(arm, moved);
+            group.second += cross_matrix(arm) * moved;
         }
         for (const BodyGroup& group : plan_.groups) {
             for (std::uint32_t bits = group.effectors; bits != 0; bits &= bits - 1) add_effector(group, bits);
@@ -332,21 +303,20 @@ private:
     }
 
     /// Adds the blocks of the lowest effector of `bits` and those from it on: with arm a = tip - p and J = -[a]x, J
-    /// mobility J^T is
-    /// -[a]x mobility [b]x, whose sum over p follows from the group's.
+    /// mobility J^T is -[a]x mobility [b]x, whose sum over p follows from the group's.
     void add_effector(const BodyGroup& group, std::uint32_t bits) {
         const auto number = [](std::uint32_t of) { return static_cast<std::size_t>(std::countr_zero(of)); };
         const auto weight = [](double a, double b) { return std::sqrt(a * b); };
         const BodyTip& other = tips_[number(bits)];
         const glm::dvec3 arm = other.place - links_[0].position;
         const glm::dmat3 first = glm::transpose(group.first);
-        const glm::dmat3 turned = times_cross(group.turns, arm) - group.first;
-        const glm::dmat3 rest = times_cross(first, arm) + group.second;
+        const glm::dmat3 turned = group.turns * cross_matrix(arm) - group.first;
+        const glm::dmat3 rest = first * cross_matrix(arm) + group.second;
         for (; bits != 0; bits &= bits - 1) {
             const BodyTip& tip = tips_[number(bits)];
             const glm::dvec3 tip_arm = tip.place - links_[0].position;
             if (tip.weight > 0.0 && other.weight > 0.0)
-                add(tip.row, other.row, -weight(tip.weight, other.weight), cross_times(tip_arm, turned) + rest);
+                add(tip.row, other.row, -weight(tip.weight, other.weight), cross_matrix(tip_arm) * turned + rest);
             if (tip.rotation_weight > 0.0 && other.weight > 0.0)
                 add(tip.rotation_row, other.row, weight(tip.rotation_weight, other.weight), turned);
             if (tip.rotation_weight > 0.0 && other.rotation_weight > 0.0) {
@@ -355,7 +325,7 @@ private:
             }
             if (&tip != &other && tip.weight > 0.0 && other.rotation_weight > 0.0) {
                 add(tip.row, other.rotation_row, -weight(tip.weight, other.rotation_weight),
-                    cross_times(tip_arm, group.turns) + first);
+                    cross_matrix(tip_arm) * group.turns + first);
             }
         }
     }
@@ -382,20 +352,28 @@ private:
         }
     }
 
-    /// Applies mobility J^T y to every link's trial and to the root's. Returns true if a limit stopped something in a
-    /// direction in which it was free so far.
-    bool apply() {
-        sum_forces();
-        bool is_stopped = apply_shift(links_[0].force);
-        for (BodyLink& link : links_) {
-            link.trial = link.local;
-            if (link.is_fixed) continue;
-            const glm::dquat parent = link.parent == kNone ? base_ : links_[link.parent].global;
-            const glm::dvec3 turn = link.mobility * (link.torque - glm::cross(link.position, link.force));
-            is_stopped = try_rotation(link, parent, turn) || is_stopped;
-            if (link.parent == kNone) is_stopped = limit_root(link, from_vector(turn)) || is_stopped;
+    [[nodiscard]] static glm::dvec3 torque_of(const BodyLink& link) {
+        return link.torque - glm::cross(link.position, link.force);
+    }
+
+    /// Sets what can move: an axis of the root's box that is at its end and would leave it stays there.
+    void open_ways(double spring) {
+        for (BodyLink& link : links_)
+            bendy::open_ways(link, link.parent == kNone ? base_ : links_[link.parent].global, torque_of(link), spring);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double pull = links_[0].force[axis] - spring * shift_[axis] / kRootFreedom;
+            const bool is_stopped = std::abs(shift_[axis]) >= most_shift_[axis] && pull * shift_[axis] >= 0.0;
+            root_mobility_[axis] = is_stopped ? 0.0 : kRootFreedom;
         }
-        return is_stopped;
+    }
+
+    /// Applies mobility J^T y to every link and to the root.
+    void apply() {
+        sum_forces();
+        for (BodyLink& link : links_) bendy::take_step(link, torque_of(link));
+        shift_before_ = shift_;
+        shift_ = glm::clamp(shift_ + root_mobility_ * links_[0].force, -most_shift_, most_shift_);
+        place();
     }
 
     void sum_forces() {
@@ -417,28 +395,6 @@ private:
             parent.force += links_[k].force;
             parent.torque += links_[k].torque;
         }
-    }
-
-    /// An axis that is at the end of its range stays there for the rest of the step.
-    bool apply_shift(const glm::dvec3& force) {
-        bool is_stopped = false;
-        for (int axis = 0; axis < 3; ++axis) {
-            if (root_mobility_[axis] == 0.0) continue;
-            const double wanted = shift_[axis] + root_mobility_[axis] * force[axis];
-            trial_shift_[axis] = std::clamp(wanted, -most_shift_[axis], most_shift_[axis]);
-            if (trial_shift_[axis] == wanted) continue;
-            root_mobility_[axis] = 0.0;
-            is_stopped = true;
-        }
-        return is_stopped;
-    }
-
-    bool limit_root(BodyLink& root, const glm::dquat& rotation) const {
-        const double angle = angle_between(start_, root.trial);
-        const auto most = double{plan_.options.root_turn};
-        if (angle <= most) return false;
-        root.trial = legal_local(root, between(start_, root.trial, most / angle));
-        return take_stopped_direction(root, base_, rotation);
     }
 
     /// Writes rotations and the root's place into the pose.
@@ -477,9 +433,8 @@ private:
     std::size_t stride_ = plan_.y.size();
     std::size_t rows_ = 0;                             ///< unknowns of this call
     glm::dquat base_{1.0, 0.0, 0.0, 0.0};              ///< orientation of the root's parent
-    glm::dquat start_{1.0, 0.0, 0.0, 0.0};             ///< of the root, relative to its parent
     glm::dvec3 origin_{0.0}, start_translation_{0.0};  ///< of the root
-    glm::dvec3 most_shift_{0.0}, shift_{0.0}, trial_shift_{0.0}, saved_shift_{0.0}, root_mobility_{0.0};
+    glm::dvec3 most_shift_{0.0}, shift_{0.0}, shift_before_{0.0}, best_shift_{0.0}, root_mobility_{0.0};
     double size_ = 1.0;  ///< metres
     double tolerance_ = 1e-4;
 };

@@ -1,26 +1,8 @@
 #include "damped_step.h"
 
-#include "ik_problem.h"
-#include "math/rotation.h"
-
-#include <algorithm>
 #include <cmath>
 
 namespace bendy {
-bool take_stopped_direction(IkLink& link, const glm::dquat& parent, const glm::dquat& rotation) {
-    const glm::dquat done = upper_half(parent * link.trial * glm::conjugate(link.global));
-    // Approximately half the rotation vectors.
-    const glm::dvec3 turn(rotation.x, rotation.y, rotation.z);
-    const glm::dvec3 stopped = turn - glm::dvec3(done.x, done.y, done.z);
-    const double size = glm::dot(stopped, stopped);
-    constexpr double kPart = 0.05;  // fraction of the rotation
-    if (size <= kPart * kPart * glm::dot(turn, turn)) return false;
-    const glm::dvec3 moved = link.mobility * stopped;
-    const double weight = glm::dot(stopped, moved);
-    if (weight <= 1e-12 * size) return false;
-    link.mobility -= glm::outerProduct(moved, moved) / weight;
-    return true;
-}
 
 void solve_damped(double* A, std::size_t stride, std::size_t size, double damping, double* y) {
     for (std::size_t j = 0; j < size; ++j) {
@@ -45,17 +27,54 @@ void solve_damped(double* A, std::size_t stride, std::size_t size, double dampin
     }
 }
 
-void set_mobility(IkLink& link) {
-    const glm::dmat3 axes = glm::mat3_cast(link.global * link.frame);
-    const glm::dvec3 squares = link.freedom * link.freedom;
-    link.mobility = glm::dmat3(axes[0] * squares.x, axes[1] * squares.y, axes[2] * squares.z) * glm::transpose(axes);
+void open_ways(IkLink& link, const glm::dquat& parent, const glm::dvec3& torque, double spring) {
+    link.way_count = 0;
+    link.mobility = glm::dmat3(0.0);
+    LimitChart& chart = link.chart;
+    if (chart.size() == 0) return;
+    chart.rebase(link.local);
+    const glm::dmat3 space = glm::mat3_cast(parent * chart.basis());
+    const glm::dvec3 pull = spring * Spring(link).turn;
+    const auto axes = chart.axes();
+    const auto ways = chart.ways();
+    std::array<glm::dvec3, 3> strains{};
+    for (std::size_t n = 0; n < chart.size(); ++n) {
+        LimitChart::Numbers numbers = ways[n].numbers;
+        const glm::dvec3 by = numbers[0] * axes[0] + numbers[1] * axes[1] + numbers[2] * axes[2];
+        glm::dvec3 axis = space * by;
+        glm::dvec3 strain = strain_of(link, chart.basis() * by);
+        if (ways[n].is_stopped(glm::dot(strain, pull) - glm::dot(axis, torque))) continue;
+        const double size = glm::dot(strain, strain);
+        for (std::size_t k = 0; k < link.way_count; ++k) {
+            const double part = glm::dot(strain, strains[k]);
+            strain -= part * strains[k];
+            axis -= part * link.ways[k].axis;
+            for (std::size_t i = 0; i < 3; ++i) numbers[i] -= part * link.ways[k].numbers[i];
+        }
+        const double left = glm::dot(strain, strain);
+        if (!(left > 1e-6 * size)) continue;
+        const double unit = 1.0 / std::sqrt(left);
+        for (double& number : numbers) number *= unit;
+        axis *= unit;
+        strains[link.way_count] = strain * unit;
+        link.ways[link.way_count++] = {numbers, axis};
+        link.mobility += glm::outerProduct(axis, axis);
+    }
 }
 
-bool try_rotation(IkLink& link, const glm::dquat& parent, const glm::dvec3& turn) {
-    const double size = std::sqrt(glm::dot(turn, turn));
-    const glm::dquat rotation = from_vector(size > kLongestStep ? turn * (kLongestStep / size) : turn);
-    link.trial = softly_legal_local(link, glm::normalize(glm::conjugate(parent) * (rotation * link.global)));
-    return link.constraint != nullptr && size > 0.0 && take_stopped_direction(link, parent, rotation);
+void take_step(IkLink& link, const glm::dvec3& torque) {
+    if (link.chart.size() == 0) return;
+    LimitChart::Numbers by{};
+    for (std::size_t k = 0; k < link.way_count; ++k) {
+        const double step = glm::dot(link.ways[k].axis, torque);
+        for (std::size_t i = 0; i < 3; ++i) by[i] += step * link.ways[k].numbers[i];
+    }
+    constexpr double kLongest = 1.0;  // radians: beyond it the derivative is meaningless
+    const double angle = glm::length(link.mobility * torque);
+    if (angle > kLongest) {
+        for (double& number : by) number *= kLongest / angle;
+    }
+    take_step(link, by);
 }
 
 }  // namespace bendy

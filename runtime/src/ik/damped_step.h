@@ -1,5 +1,6 @@
 #pragma once
 
+#include "math/rotation.h"
 #include "pose/ik_link.h"
 
 #include <glm/gtc/quaternion.hpp>
@@ -18,60 +19,93 @@ namespace bendy {
 /// and is overwritten \param size  rows, at most `stride`
 void solve_damped(double* A, std::size_t stride, std::size_t size, double damping, double* y);
 
-/// The longest step of a joint in radians: beyond it the derivative is meaningless.
-inline constexpr double kLongestStep = 1.0;
+/// Returns a rotation vector in the space of the link's parent as what it costs: the less a joint is free about an
+/// axis, the more.
+inline glm::dvec3 strain_of(const IkLink& link, const glm::dvec3& turn) {
+    const glm::dvec3& f = link.freedom;
+    if (f == glm::dvec3(1.0)) return turn;
+    constexpr double kLeast = 1e-3;
+    return glm::conjugate(link.saved * link.frame) * turn / glm::max(f, glm::dvec3(kLeast));
+}
 
-/// Sets the link's mobility from its freedom: from a wanted rotation vector to the one that it makes.
-void set_mobility(IkLink& link);
-/// Sets the link's trial from a step by a rotation, as far as it is legal. Returns true if a constraint stopped it in a
-/// direction in which it was free so far: that direction is then removed from its mobility. \param parent  orientation
-/// of the link above
-bool try_rotation(IkLink& link, const glm::dquat& parent, const glm::dvec3& turn);
-/// The second half of that, for a link whose trial has been limited otherwise.
-bool take_stopped_direction(IkLink& link, const glm::dquat& parent, const glm::dquat& rotation);
+/// A link's turn from where it started: the chord of its angle, which needs no trigonometry and grows up to half a
+/// turn.
+struct Spring {
+    explicit Spring(const IkLink& link) {
+        const glm::dquat by = upper_half(link.local * glm::conjugate(link.saved));
+        turn = strain_of(link, 2.0 * glm::dvec3(by.x, by.y, by.z));
+        bend = by.w;
+    }
+    [[nodiscard]] double square() const { return 2.0 * glm::dot(turn, turn) / (1.0 + bend); }
+
+    glm::dvec3 turn;  ///< half the derivative of the square
+    double bend;      ///< half the second one
+};
+
+struct Measured {
+    double cost = 0.0, turns = 0.0;  ///< the latter: the sum of the springs' squares
+
+    [[nodiscard]] double objective(double spring) const { return 0.5 * (cost + spring * turns); }
+    /// Returns the weakest springs: the farther the target remains, the more the tip may miss it by for them.
+    [[nodiscard]] double last_spring() const { return std::clamp(0.03 * cost, 1e-6, 1e-2); }
+};
+
+template <class Links>
+Measured measured(const Links& links, double cost) {
+    Measured now{cost};
+    for (const IkLink& link : links) now.turns += Spring(link).square();
+    return now;
+}
+
+/// Sets the ways that the link's limits leave open, and its mobility.
+/// \param parent  orientation of the link above
+/// \param torque  how the cost falls as the link turns
+void open_ways(IkLink& link, const glm::dquat& parent, const glm::dvec3& torque, double spring);
+/// Turns the link by its mobility times a torque, inside its limits.
+void take_step(IkLink& link, const glm::dvec3& torque);
+inline void take_step(IkLink& link, const LimitChart::Numbers& by) {
+    link.before = link.local;
+    link.numbers_before = link.chart.values();
+    link.local = link.chart.step(link, by);
+}
+inline void take_back_step(IkLink& link) {
+    if (link.chart.size() == 0) return;
+    link.local = link.before;
+    link.chart.set(link.numbers_before);
+}
 /// Returns [arm]x by columns, cross(arm, axis). A rotation w moves the end of an arm by cross(w, arm) = -[arm]x w.
 inline glm::dmat3 cross_matrix(const glm::dvec3& arm) {
     return {glm::dvec3(0.0, arm.z, -arm.y), glm::dvec3(-arm.z, 0.0, arm.x), glm::dvec3(arm.y, -arm.x, 0.0)};
 }
 
-/// Iterates from the problem's current state until its targets are reached or it is stuck: Levenberg-Marquardt. Returns
-/// the number of iterations. \param problem  has is_reached(), cost(), try_step(damping), which leaves a step in the
-/// trial state, and swap(), which makes the
-///                 trial state the current one and the current one the trial state
+/// Iterates from the problem's current state until its targets are reached or it is stuck: Levenberg-Marquardt. Springs
+/// to the pose that came in, which are loosened from step to step, are the damping; a step counts as better with them.
+/// Returns the number of iterations.
+/// \param problem  has is_reached(), measure(), take_step(spring, damping), and take_back_step()
 template <class Problem>
 std::uint32_t descend_damped(Problem& problem, std::uint32_t most) {
-    double damping = 1e-2;
-    double cost = problem.cost();
+    constexpr double kSpring = 1e-2, kLooser = 0.1, kStuck = 1e-3;
+    constexpr double kFirst = 1e-3, kHarder = 10.0, kHardest = 1e3;
+    double spring = kSpring, more = 0.0;
+    Measured at = problem.measure();
     for (std::uint32_t iteration = 0; iteration < most; ++iteration) {
         if (problem.is_reached()) return iteration;
-        problem.try_step(damping);
-        problem.swap();
-        const double now = problem.cost();
-        constexpr double kStuck = 1e-3;  // relative to the cost
-        const bool is_better = now < cost;
-        const bool is_stuck = cost - now < kStuck * cost;
-        if (is_better) {
-            cost = now;
-            damping = std::max(damping * 0.3, 1e-9);
-        } else {
-            problem.swap();
-            damping *= 8.0;
+        problem.take_step(spring, spring + more);
+        const Measured now = problem.measure();
+        const double before = at.objective(spring), gain = before - now.objective(spring);
+        if (!(gain > 0.0)) {
+            problem.take_back_step();
+            if (more >= kHardest) return iteration + 1;
+            more = std::max(kFirst, kHarder * more);
+            continue;
         }
-        if (is_stuck && (is_better || damping > 10.0)) return iteration + 1;
+        at = now;
+        const double last = at.last_spring();
+        if (spring <= last && gain < kStuck * before) return iteration + 1;
+        spring = std::max(last, kLooser * spring);
+        more = more <= kFirst ? 0.0 : more / kHarder;
     }
     return most;
 }
-
-/// Pseudo-random numbers in [-1, 1] from a counter: the same on every machine.
-class Dice {
-public:
-    double next() {
-        state_ = state_ * 6364136223846793005u + 1442695040888963407u;  // Knuth's MMIX generator
-        return static_cast<double>(static_cast<std::int64_t>(state_) >> 11) * 0x1p-52;
-    }
-
-private:
-    std::uint64_t state_ = 1;
-};
 
 }  // namespace bendy

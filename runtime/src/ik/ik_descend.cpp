@@ -1,5 +1,4 @@
 #include "ik_problem.h"
-#include "limit_chart.h"
 #include "math/rotation.h"
 
 #include <bendy/format/trig.h>
@@ -8,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <span>
 
 // Within limits more than one pose may be such that no step brings the tip nearer. If a descent from the pose that came
 // in does not reach, others begin where one is likely to: with the closed form, with its most promising swivel, and in
@@ -20,19 +18,14 @@ class Descents {
 public:
     explicit Descents(IkProblem& problem) : problem_(problem) {
         keep(&IkLink::legal, &IkLink::local);
-        const std::size_t links = problem.links.size();
-        if (links > charts_.size()) return;
-        for (std::size_t i = 0; i < links; ++i) {
-            if (!charts_.at(i).begin(problem.links[i])) return;
-        }
-        links_with_charts_ = links;
+        for (IkLink& link : problem.links) link.chart.begin(link);
     }
 
     /// Descends from where the links are, to what they were saved as where that is undetermined. Returns true if this
     /// reaches.
     bool descend() {
-        const std::span<LimitChart> charts = std::span(charts_).first(links_with_charts_);
-        iterations_ += charts.empty() ? solve_least_squares(problem_) : solve_newton(problem_, charts, most(), !best_);
+        iterations_ += problem_.links.size() > kMostNewtonLinks ? solve_least_squares(problem_, most())
+                                                                : solve_newton(problem_, most(), !best_);
         consider();
         return problem_.is_reached();
     }
@@ -63,7 +56,7 @@ public:
             keep(&IkLink::local, &IkLink::closed);
             const double angle = 2.0 * trig::kPi * static_cast<double>(turn) / kTurns;
             const glm::dquat turned = from_vector(way * (angle / distance)) * start.closed;
-            start.local = links_with_charts_ > 0 ? charts_[0].read(start, turned) : legal_local(start, turned);
+            start.local = start.chart.read(start, turned);
             problem_.place();
         };
         std::array<double, kTurns> costs{};
@@ -107,12 +100,13 @@ public:
     }
 
 private:
-    /// Returns how many iterations a descent with charts may take; all of them no more than 20 for each link.
+    /// Returns how many iterations a descent may take; all of them no more than 20 for each link.
     [[nodiscard]] std::uint32_t most() const {
         constexpr std::uint32_t kOfLink = 20, kFirst = 40, kLater = 20;
         const std::uint32_t all = kOfLink * static_cast<std::uint32_t>(problem_.links.size());
-        if (!best_) return std::min(kFirst, all / 2);
-        return std::min(kLater, all > iterations_ ? all - iterations_ : 0);
+        const std::uint32_t most =
+            best_ ? std::min(kLater, all > iterations_ ? all - iterations_ : 0) : std::min(kFirst, all / 2);
+        return problem_.iterations != 0 ? std::min(problem_.iterations, most) : most;
     }
 
     void keep(glm::dquat IkLink::*to, glm::dquat IkLink::*from) {
@@ -128,8 +122,6 @@ private:
     }
 
     IkProblem& problem_;
-    std::array<LimitChart, LimitChart::kMostLinks> charts_;
-    std::size_t links_with_charts_ = 0;  ///< all or none
     std::uint32_t iterations_ = 0;
     std::optional<double> best_;  ///< its cost
 };

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstdint>
 
-// Damped least squares: Levenberg-Marquardt over all joints at once (Buss, "Introduction to inverse kinematics with
-// Jacobian transpose, pseudoinverse and damped least squares methods", 2004). If a constraint stops a joint in some
-// direction, that direction is removed from the joint and the step is solved again, so that the other joints make up
-// for it.
+// Damped least squares over all joints at once (Buss, "Introduction to inverse kinematics with Jacobian transpose,
+// pseudoinverse and damped least squares methods", 2004), in the coordinates in which limits are intervals: a number
+// that is at its limit and would leave it is fixed for a step. The step is found for six unknowns, however long the
+// chain is. For chains that have too many links for Newton's method.
 namespace bendy {
 namespace {
 
@@ -18,45 +18,42 @@ constexpr std::size_t kMost = 6;
 using Unknowns = std::array<double, kMost>;
 using Matrix = std::array<Unknowns, kMost>;
 
+/// At the tip: a force and a torque.
+struct Screw {
+    glm::dvec3 along{0.0}, about{0.0};
+};
+
 class LeastSquares {
 public:
     explicit LeastSquares(IkProblem& problem)
         : problem_(problem),
-          size_(problem.has_rotation ? 6 : 3),
           position_(std::sqrt(problem.position_weight)),
-          rotation_(problem.has_rotation ? std::sqrt(problem.rotation_weight) : 0.0) {}
+          rotation_(problem.has_rotation ? std::sqrt(problem.rotation_weight) : 0.0) {
+        for (IkLink& link : problem.links) link.chart.read(link, link.local);
+    }
 
     [[nodiscard]] bool is_reached() const { return problem_.is_reached(); }
-    [[nodiscard]] double cost() const { return problem_.cost(); }
-    void swap() {
-        for (IkLink& link : problem_.links) std::swap(link.local, link.trial);
+    [[nodiscard]] Measured measure() const { return measured(problem_.links, problem_.cost()); }
+    void take_step(double spring, double damping) {
+        const Screw errors{position_ * (problem_.target - problem_.tip),
+                           rotation_ * to_vector(problem_.target_rotation * glm::conjugate(problem_.tip_global))};
+        for (std::size_t i = 0; i < problem_.links.size(); ++i)
+            open_ways(problem_.links[i], problem_.parent_global(i), torque(problem_.links[i], errors), spring);
+        Matrix A = gather();
+        Unknowns y{errors.along.x, errors.along.y, errors.along.z, errors.about.x, errors.about.y, errors.about.z};
+        solve_damped(A[0].data(), kMost, kMost, damping, y.data());
+        const Screw force{{y[0], y[1], y[2]}, {y[3], y[4], y[5]}};
+        for (IkLink& link : problem_.links) bendy::take_step(link, torque(link, force));
         problem_.place();
     }
-    /// Computes a step and fills the links' trial with it.
-    void try_step(double damping) {
-        for (IkLink& link : problem_.links) set_mobility(link);
-        // In a short chain few joints can make up for a stopped one, and they may be stopped in turn.
-        constexpr std::size_t kShort = 4;
-        const int rounds = problem_.links.size() <= kShort ? 3 : 2;
-        for (int round = 0; round < rounds; ++round) {
-            Matrix A = gather();
-            Unknowns y = errors();
-            solve_damped(A[0].data(), kMost, size_, damping, y.data());
-            if (!apply(y)) return;
-        }
+    void take_back_step() {
+        for (IkLink& link : problem_.links) bendy::take_back_step(link);
+        problem_.place();
     }
 
 private:
-    [[nodiscard]] Unknowns errors() const {
-        const glm::dvec3 p = position_ * (problem_.target - problem_.tip);
-        Unknowns e{p.x, p.y, p.z};
-        if (size_ == 6) {
-            const glm::dvec3 r = rotation_ * to_vector(problem_.target_rotation * glm::conjugate(problem_.tip_global));
-            e[3] = r.x;
-            e[4] = r.y;
-            e[5] = r.z;
-        }
-        return e;
+    [[nodiscard]] glm::dvec3 torque(const IkLink& link, const Screw& force) const {
+        return position_ * glm::cross(problem_.tip - link.position, force.along) + rotation_ * force.about;
     }
 
     /// Returns the sum of J mobility J^T, J of each link: a rotation w moves the tip by cross(w, arm), and rotates it
@@ -66,15 +63,12 @@ private:
         glm::dmat3 pr(0.0);
         glm::dmat3 rr(0.0);
         for (const IkLink& link : problem_.links) {
-            if (link.is_fixed) continue;
-            const glm::dvec3 arm = problem_.tip - link.position;
-            const glm::dmat3 cross_arm = cross_matrix(arm);
+            if (link.way_count == 0) continue;
+            const glm::dmat3 cross_arm = cross_matrix(problem_.tip - link.position);
             const glm::dmat3 left = cross_arm * link.mobility;
             pp -= left * cross_arm;  // the transpose of [arm]x is -[arm]x
-            if (size_ == 6) {
-                pr -= left;
-                rr += link.mobility;
-            }
+            pr -= left;
+            rr += link.mobility;
         }
         Matrix A{};
         for (int column = 0; column < 3; ++column) {
@@ -90,34 +84,15 @@ private:
         return A;
     }
 
-    /// Applies the rotation mobility J^T y to every link's trial. Returns true if a constraint stopped a link in a
-    /// direction in which it was free so far: that direction is then removed from its mobility.
-    bool apply(const Unknowns& y) {
-        const glm::dvec3 p = position_ * glm::dvec3(y[0], y[1], y[2]);
-        const glm::dvec3 r = size_ == 6 ? rotation_ * glm::dvec3(y[3], y[4], y[5]) : glm::dvec3(0.0);
-        bool is_stopped = false;
-        glm::dquat parent(1.0, 0.0, 0.0, 0.0);
-        for (IkLink& link : problem_.links) {
-            link.trial = link.local;
-            if (!link.is_fixed) {
-                const glm::dvec3 arm = problem_.tip - link.position;
-                is_stopped = try_rotation(link, parent, link.mobility * (glm::cross(arm, p) + r)) || is_stopped;
-            }
-            parent = link.global;
-        }
-        return is_stopped;
-    }
-
     IkProblem& problem_;
-    std::size_t size_;
     double position_, rotation_;  ///< square roots of the weights
 };
 
 }  // namespace
 
-std::uint32_t solve_least_squares(IkProblem& problem) {
+std::uint32_t solve_least_squares(IkProblem& problem, std::uint32_t most) {
     LeastSquares method(problem);
-    return descend_damped(method, problem.iterations != 0 ? problem.iterations : 60);
+    return descend_damped(method, most);
 }
 
 }  // namespace bendy

@@ -1,5 +1,5 @@
+#include "damped_step.h"
 #include "ik_problem.h"
-#include "limit_chart.h"
 #include "math/rotation.h"
 
 #include <bendy/format/trig.h>
@@ -21,20 +21,18 @@
 namespace bendy {
 namespace {
 
-constexpr std::size_t kMostLinks = LimitChart::kMostLinks;
-constexpr std::size_t kMostNumbers = 3 * kMostLinks;
+constexpr std::size_t kMostNumbers = 3 * kMostNewtonLinks;
 using HessianRow = std::array<double, kMostNumbers>;
 
 class Newton {
 public:
-    Newton(IkProblem& problem, std::span<LimitChart> charts, std::uint32_t most)
-        : problem_(problem), charts_(charts), most_(most), links_(charts.size()) {
+    Newton(IkProblem& problem, std::uint32_t most) : problem_(problem), most_(most), links_(problem.links.size()) {
         while (!problem.has_rotation && links_ > 0 && problem.links[links_ - 1].bone_length == 0.0) --links_;
     }
 
     /// See solve_newton.
     std::uint32_t run(bool is_first) {
-        for (std::size_t i = 0; i < links_; ++i) charts_[i].read(problem_.links[i]);
+        for (IkLink& link : problem_.links.first(links_)) link.chart.read(link, link.local);
         if (problem_.is_reached() && !problem_.stays_close) return 0;
         constexpr double kStiff = 3.0, kClose = 1e-3;
         constexpr std::uint32_t kFew = 16;
@@ -43,12 +41,12 @@ public:
         at_ = measure();
         const double off = at_.cost;
         // Weaker, the nearer the target is.
-        spring_ = std::max(last_spring(), std::min(kStiff, (is_first ? 3.0 : 0.3) * off * std::sqrt(off)));
+        spring_ = std::max(at_.last_spring(), std::min(kStiff, (is_first ? 3.0 : 0.3) * off * std::sqrt(off)));
         if (problem_.stays_close) spring_ = kClose;
         while (tried_ < most_) {
             linearise();
             const double largest = descend();
-            const double last = last_spring();
+            const double last = at_.last_spring();
             if (spring_ > last) {
                 spring_ = std::max(last, spring_ * looser);
             } else if (largest < kSmall || (problem_.is_reached() && largest < kSettled)) {
@@ -61,41 +59,7 @@ public:
 private:
     static constexpr double kSmall = 1e-5;  ///< radians
 
-    /// Returns the weakest springs: the farther the target remains, the more the tip may miss it by for them.
-    [[nodiscard]] double last_spring() const { return std::clamp(0.03 * at_.cost, 1e-6, 1e-2); }
-
-    /// Returns a rotation vector in the space of the link's parent as what it costs: the less a joint is free about an
-    /// axis, the more.
-    [[nodiscard]] static glm::dvec3 strain(const IkLink& link, const glm::dvec3& turn) {
-        const glm::dvec3& f = link.freedom;
-        if (f == glm::dvec3(1.0)) return turn;
-        constexpr double kLeast = 1e-3;
-        return glm::conjugate(link.saved * link.frame) * turn / glm::max(f, glm::dvec3(kLeast));
-    }
-
-    /// A link's turn from where it started: the chord of its angle, which needs no trigonometry and grows up to half
-    /// a turn.
-    struct Spring {
-        explicit Spring(const IkLink& link) {
-            const glm::dquat by = upper_half(link.local * glm::conjugate(link.saved));
-            turn = strain(link, 2.0 * glm::dvec3(by.x, by.y, by.z));
-            bend = by.w;
-        }
-        [[nodiscard]] double square() const { return 2.0 * glm::dot(turn, turn) / (1.0 + bend); }
-
-        glm::dvec3 turn;  ///< half the derivative of the square
-        double bend;      ///< half the second one
-    };
-
-    struct Measured {
-        double cost = 0.0, turns = 0.0;  ///< the latter: the sum of the springs' squares
-    };
-    [[nodiscard]] Measured measure() const {
-        Measured now{problem_.cost()};
-        for (std::size_t i = 0; i < links_; ++i) now.turns += Spring(problem_.links[i]).square();
-        return now;
-    }
-    [[nodiscard]] double objective(const Measured& pose) const { return 0.5 * (pose.cost + spring_ * pose.turns); }
+    [[nodiscard]] Measured measure() const { return measured(problem_.links.first(links_), problem_.cost()); }
 
     /// Takes a step that improves the objective, damped as much as that needs; returns its largest turn in radians.
     double descend() {
@@ -111,7 +75,7 @@ private:
             const double largest = take_step();
             const Measured now = measure();
             ++tried_;
-            if (objective(now) < objective(at_)) {
+            if (now.objective(spring_) < at_.objective(spring_)) {
                 at_ = now;
                 damping_ = damping_ <= kFirst ? 0.0 : 0.1 * damping_;
                 return largest;
@@ -141,46 +105,33 @@ private:
             wr > 0.0 ? wr * to_vector(problem_.tip_global * glm::conjugate(problem_.target_rotation)) : glm::dvec3(0.0);
         count_ = 0;
         for (std::size_t i = 0; i < links_; ++i) {
-            LimitChart& chart = charts_[i];
-            const IkLink& link = problem_.links[i];
+            IkLink& link = problem_.links[i];
+            LimitChart& chart = link.chart;
             const glm::dvec3 arm = problem_.tip - link.position;
             if (chart.size() == 0 || (glm::dot(arm, arm) < 1e-18 && wr == 0.0)) continue;
-            chart.rebase(link);
+            chart.rebase(link.local);
             const glm::dmat3 space = glm::mat3_cast(problem_.parent_global(i) * chart.basis());
             const Spring spring(link);
             const bool is_free = link.freedom == glm::dvec3(1.0);
             const glm::dvec3 back = spring_ * (is_free ? glm::conjugate(chart.basis()) * spring.turn : spring.turn);
             bends_of_springs_[i] = spring_ * spring.bend;
             const auto axes = chart.axes();
-            const LimitChart::Edge edge = chart.edge();
+            const auto ways = chart.ways();
             double outward = 0.0;
             for (std::size_t n = 0; n < chart.size(); ++n) {
                 Direction& d = directions_[count_];
-                const bool is_at_edge = edge.is_there && n < 2;
                 d.link = i;
-                d.numbers = {};
-                d.numbers[n] = 1.0;
-                if (is_at_edge) {
-                    d.numbers =
-                        n == 0 ? LimitChart::Numbers{edge.y, edge.z, 0.0} : LimitChart::Numbers{-edge.z, edge.y, 0.0};
-                }
+                d.numbers = ways[n].numbers;
                 const glm::dvec3 by = d.numbers[0] * axes[0] + d.numbers[1] * axes[1] + d.numbers[2] * axes[2];
-                d.strain = is_free ? by : strain(link, chart.basis() * by);
+                d.strain = is_free ? by : strain_of(link, chart.basis() * by);
                 d.axis = space * by;
                 d.slope = problem_.is_uneven ? link.space * glm::cross(chart.basis() * by, link.arm)
                                              : glm::cross(d.axis, arm);
                 d.gradient = glm::dot(d.slope, off) + glm::dot(d.axis, turn) + glm::dot(d.strain, back);
                 d.size = glm::dot(d.strain, d.strain);
-                d.bend = is_at_edge && n == 1 ? -outward * edge.curvature : 0.0;
-                if (is_at_edge) {
-                    if (n == 0) outward = std::min(0.0, d.gradient);
-                    if (n == 1 || outward == 0.0) ++count_;
-                    continue;
-                }
-                const double value = chart.values()[n];
-                constexpr double kAt = 1e-12;
-                const bool is_stopped = (value <= chart.low()[n] + kAt && d.gradient > 0.0) ||
-                                        (value >= chart.high()[n] - kAt && d.gradient < 0.0);
+                d.bend = -outward * ways[n].curvature;
+                const bool is_stopped = ways[n].is_stopped(d.gradient);
+                if (n == 0 && is_stopped) outward = d.gradient;
                 if (!is_stopped) ++count_;
             }
         }
@@ -259,10 +210,7 @@ private:
             for (; d < count_ && directions_[d].link == i; ++d) {
                 for (std::size_t n = 0; n < 3; ++n) step[n] += part * step_[d] * directions_[d].numbers[n];
             }
-            IkLink& link = problem_.links[i];
-            link.trial = link.local;
-            before_[i] = charts_[i].values();
-            link.local = charts_[i].move(step);
+            bendy::take_step(problem_.links[i], step);
         }
         first_ = first;
         if (first < problem_.links.size()) problem_.place(first);
@@ -275,17 +223,14 @@ private:
             const std::size_t i = directions_[d].link;
             if (i == last) continue;
             last = i;
-            problem_.links[i].local = problem_.links[i].trial;
-            charts_[i].set(before_[i]);
+            take_back_step(problem_.links[i]);
         }
         if (first_ < problem_.links.size()) problem_.place(first_);
     }
 
     IkProblem& problem_;
-    std::span<LimitChart> charts_;
     std::uint32_t most_;  ///< steps, those that are taken back among them
-    std::array<LimitChart::Numbers, kMostLinks> before_;
-    std::array<double, kMostLinks> bends_of_springs_;
+    std::array<double, kMostNewtonLinks> bends_of_springs_;
     std::array<Direction, kMostNumbers> directions_;
     std::array<HessianRow, kMostNumbers> hessian_, root_;
     HessianRow step_{}, inverse_{};  ///< of the diagonal
@@ -298,9 +243,8 @@ private:
 
 }  // namespace
 
-std::uint32_t solve_newton(IkProblem& problem, std::span<LimitChart> charts, std::uint32_t most, bool is_first) {
-    if (problem.iterations != 0) most = std::min(problem.iterations, most);
-    return Newton(problem, charts, most).run(is_first);
+std::uint32_t solve_newton(IkProblem& problem, std::uint32_t most, bool is_first) {
+    return Newton(problem, most).run(is_first);
 }
 
 }  // namespace bendy

@@ -114,24 +114,14 @@ void IkProblem::save() {
     for (IkLink& link : links) link.saved = link.local;
 }
 
-void IkProblem::restore() {
-    for (IkLink& link : links) link.local = link.saved;
-    place();
-}
-
 glm::dquat legal_local(const IkLink& link, const glm::dquat& local) {
     if (link.constraint == nullptr) return local;
     const Constraint& c = *link.constraint;
     return through_limits(link, local, [&](const glm::dquat& R) { return quick_legal_rotation(c, c.shape, R); });
 }
 
-glm::dquat nearest_legal_local(const IkLink& link, const glm::dquat& local) {
-    if (link.constraint == nullptr) return local;
-    const Constraint& c = *link.constraint;
-    return through_limits(link, local, [&](const glm::dquat& R) { return nearest_rotation(c, c.shape, R); });
-}
-
 glm::dquat middle_local(const IkLink& link) {
+    if (link.constraint == nullptr) return link.rest_frame;
     const Constraint& constraint = *link.constraint;
     const auto& angles = constraint.shape.angles;
     const auto& preferred = constraint.record.preferred;
@@ -155,7 +145,8 @@ glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local) {
             return angle_between(quick_legal_rotation(c, c.inner, rotation), rotation);
         };
         const double in_zone = depth(R);
-        const bool goes_deeper = in_zone > 0.0 && in_zone > depth(before);
+        constexpr double kRounding = 1e-9;
+        const bool goes_deeper = in_zone > kRounding && in_zone > depth(before);
         return quick_legal_rotation(c, c.shape, goes_deeper ? between(before, R, 0.5) : R);
     });
 }

@@ -14,8 +14,6 @@
 // A chain as the solvers see it: in the space of the start's parent ("base space"), with lengths in chain lengths.
 namespace bendy {
 
-class LimitChart;
-
 struct IkProblem {
     std::span<IkLink> links;
     glm::dvec3 origin{0};       ///< of the first link
@@ -56,7 +54,6 @@ struct IkProblem {
     /// The quantity that the solvers minimise: the weighted sum of both errors squared.
     [[nodiscard]] double cost() const;
     void save();
-    void restore();
 
 private:
     void place_unevenly();
@@ -64,9 +61,7 @@ private:
 
 /// Returns the rotation moved inside the link's constraint.
 glm::dquat legal_local(const IkLink& link, const glm::dquat& local);
-/// The same with a slower method that stays closer: for a solver's starting point.
-glm::dquat nearest_legal_local(const IkLink& link, const glm::dquat& local);
-/// Returns the rotation that a link's limits prefer, or that in their middle.
+/// Returns the rotation that a link's limits prefer, or that in their middle; at rest if it has none.
 glm::dquat middle_local(const IkLink& link);
 /// As legal_local, but a step from link.local into the soft zone is halved.
 glm::dquat softly_legal_local(const IkLink& link, const glm::dquat& local);
@@ -138,11 +133,12 @@ double best_swivel(const Constraint& constraint, const glm::dquat& rest_frame, c
 /// against the axis, whose sign in the file carries no meaning. False for other joints.
 bool prefers_back(const Constraint* constraint);
 std::uint32_t solve_aim(IkProblem& problem);
-std::uint32_t solve_least_squares(IkProblem& problem);
-/// For a chain all of whose links have charts: see ik_newton.cpp.
+/// The same for a chain of at most kMostNewtonLinks: see ik_newton.cpp.
 /// \param most      iterations
 /// \param is_first  otherwise it begins with weaker springs
-std::uint32_t solve_newton(IkProblem& problem, std::span<LimitChart> charts, std::uint32_t most, bool is_first);
+std::uint32_t solve_newton(IkProblem& problem, std::uint32_t most, bool is_first);
+inline constexpr std::size_t kMostNewtonLinks = 10;
+std::uint32_t solve_least_squares(IkProblem& problem, std::uint32_t most);
 /// Solves from the pose at hand, or in closed form, and if that does not reach, from other starts: see ik_descend.cpp.
 std::uint32_t solve_from(IkProblem& problem, bool is_closed);
 /// Solves from where the links are, close to there, and does not try other starts.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "pose/ik_link.h"
-
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
@@ -10,28 +8,30 @@
 #include <cstdint>
 #include <limits>
 
-// The coordinates of a joint's rotation in which its limits are intervals, and the swing's ellipse an ellipse.
+// The coordinates of a joint's rotation in which its limits are intervals, the swing's ellipse an ellipse, and the
+// largest angle a ball.
 namespace bendy {
+
+struct IkLink;
 
 /// The rotation of a link as up to three numbers, each of which turns it about one axis: the angle of a hinge; Euler
 /// angles, the last rotation first; the tangents of half the swing's angles about Y and Z, which are (y, z) / w of its
-/// quaternion, and the twist; or a step from the current rotation, where nothing limits it.
+/// quaternion, and the twist; (x, y, z) / w of a rotation with a largest angle; or a step from the current rotation,
+/// where nothing limits it.
 class LimitChart {
 public:
     using Numbers = std::array<double, 3>;
-    static constexpr std::size_t kMostLinks = 10;  ///< of a chain that is solved with charts
 
-    /// Returns false if the link's limits have no such coordinates.
-    [[nodiscard]] bool begin(const IkLink& link);
-    /// Sets the numbers from the link's rotation, which is legal.
-    void read(const IkLink& link) { (void)read(link, link.local); }
+    void begin(const IkLink& link);
+    /// The same for a link that may turn by an angle from a rotation.
+    void begin_within(const IkLink& link, double largest, const glm::dquat& from);
     /// Sets the numbers from a rotation of the link, moved inside the limits, and returns that.
     glm::dquat read(const IkLink& link, const glm::dquat& local);
 
     /// Starts a step of a free link from its rotation.
-    void rebase(const IkLink& link) {
+    void rebase(const glm::dquat& local) {
         if (kind_ != Kind::free) return;
-        local_ = link.local;
+        local_ = local;
         values_.fill(0.0);
     }
 
@@ -51,20 +51,28 @@ public:
     [[nodiscard]] const glm::dquat& basis() const { return rest_frame_; }
     /// Changes the numbers by a step, moves them inside the limits, and returns the link's rotation.
     glm::dquat move(const Numbers& step);
+    /// The same for the step of a solver, of which a soft zone leaves half.
+    glm::dquat step(const IkLink& link, const Numbers& by);
     /// Returns to other numbers of this chart.
     void set(const Numbers& values) { values_ = values; }
 
-    /// The edge of a swing's ellipse, if the swing is there: the first two numbers.
-    struct Edge {
-        bool is_there = false;
-        double y = 0.0, z = 0.0;  ///< the outward normal, of unit length
-        double curvature = 0.0;
+    /// A direction in which the rotation can move: that of a number, or at an edge outwards or along it.
+    struct Way {
+        Numbers numbers{};
+        bool is_at_low = false, is_at_high = false;
+        double curvature = 0.0;  ///< of the edge, of which the first way is the outward normal
+
+        [[nodiscard]] bool is_stopped(double gradient) const {
+            return (is_at_low && gradient > 0.0) || (is_at_high && gradient < 0.0);
+        }
     };
-    [[nodiscard]] Edge edge() const;
+    /// As many as there are numbers.
+    [[nodiscard]] std::array<Way, 3> ways() const;
 
 private:
-    enum class Kind : std::uint8_t { free, hinge, ellipse, pyramid, euler };
+    enum class Kind : std::uint8_t { free, hinge, ellipse, pyramid, euler, ball };
 
+    void put_ball(double largest, const glm::dquat& middle);
     [[nodiscard]] glm::dquat rotation() const;
     /// Returns one of the swing's numbers in half axes of the ellipse.
     [[nodiscard]] double share(std::size_t number) const {
@@ -72,6 +80,7 @@ private:
     }
 
     Kind kind_ = Kind::free;
+    bool clamps_ = false;  ///< a step, for a soft zone or limits without such coordinates
     std::size_t size_ = 0;
     Numbers values_{}, low_{}, high_{};
     std::array<double, 2> inverse_low_{}, inverse_high_{};  ///< of an ellipse's half axes; 0 if they have no length

@@ -6,12 +6,21 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include "ik/limit_chart.h"
+
+#include <array>
 #include <cstdint>
 
 namespace bendy {
 
 /// Links of an arm or a leg, which retargeting moves whether the model has a chain for it or not.
 inline constexpr std::uint32_t kLimbLinks = 3;
+
+/// A way in which a link can turn, at right angles to its others as their cost measures it, and of unit cost.
+struct IkWay {
+    LimitChart::Numbers numbers;
+    glm::dvec3 axis;  ///< of the rotation that this makes
+};
 
 /// A joint of a chain while an IK solver works on it; a PoseState has enough for its model's longest chain, so that
 /// reaching allocates nothing. Rotations and bones are in the space of the start's parent, lengths in chain lengths.
@@ -37,10 +46,14 @@ struct IkLink {
 
     // Used by the solvers.
     glm::dquat saved;  ///< a saved rotation; at first that of the pose that came in, legal or not
-    glm::dquat trial;
-    glm::dmat3 mobility;
-    glm::dquat legal;   ///< as it came in, moved inside the limits
-    glm::dquat closed;  ///< in the closed form
+    LimitChart chart;
+    glm::dquat before;  ///< a step, and the numbers
+    LimitChart::Numbers numbers_before;
+    std::size_t way_count = 0;
+    std::array<IkWay, 3> ways;  ///< of a damped step
+    glm::dmat3 mobility;        ///< from a torque to a turn
+    glm::dquat legal;           ///< as it came in, moved inside the limits
+    glm::dquat closed;          ///< in the closed form
     glm::dquat best;
 };
 

@@ -45,7 +45,7 @@ struct BodyReachOptions {
     glm::vec3 root_shift{0.0f};
     float root_turn = 0.0f;         ///< radians: how far the root may turn from its orientation in the pose
     std::uint32_t iterations = 60;  ///< maximum for each starting point
-    std::uint32_t restarts = 8;     ///< number of other starting points to try when it is stuck
+    std::uint32_t restarts = 2;     ///< number of other starting points to try when it is stuck
     float tolerance = 0.0f;  ///< metres, default 0.0001 of the longest way from the root to an effector; for rotations
                              ///< the same part in radians
     bool obey_constraints = true;

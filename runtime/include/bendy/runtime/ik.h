@@ -81,8 +81,8 @@ struct ReachResult {
 ///     aim            turns the tip's Z axis towards the target, as in looking at it; each joint does a share
 ///     least_squares  all joints at once. Up to 10 links, by Newton's method in the coordinates of the limits: what the
 ///                    target leaves open stays nearest to the pose that came in, so that the result follows pose and
-///                    target smoothly, in at most 20 iterations for each link; longer chains and soft zones, by damped
-///                    least squares
+///                    target smoothly; longer chains, by damped least squares in the same coordinates. At most 20
+///                    iterations for each link
 ///     ccd, fabrik    as least_squares: names that files hold for programs that have these solvers
 /// If two_bone stops short of its target, least_squares continues from there; iterations and restarts apply to it too.
 /// Where limits forbid to reach, a few other poses are tried as starts, and the one that comes nearest counts: see
