@@ -981,7 +981,7 @@ typedef struct bendy_body_reach_options {
 } bendy_body_reach_options;
 
 #define BENDY_BODY_REACH_OPTIONS_INIT \
-    { sizeof(bendy_body_reach_options), BENDY_NONE, {0.0f, 0.0f, 0.0f}, 0.0f, 60, 8, 0.0f, 1 }
+    { sizeof(bendy_body_reach_options), BENDY_NONE, {0.0f, 0.0f, 0.0f}, 0.0f, 60, 2, 0.0f, 1 }
 
 /* The joints between a root and 1 to 32 effectors, such as hands, feet and head. Contains work memory, so each thread
  * needs one of its own. */
