@@ -34,6 +34,12 @@ void open_ways(IkLink& link, const glm::dquat& parent, const glm::dvec3& torque,
     if (chart.size() == 0) return;
     chart.rebase(link.local);
     const glm::dmat3 space = glm::mat3_cast(parent * chart.basis());
+    if (chart.is_free() && link.freedom == glm::dvec3(1.0)) {
+        for (int n = 0; n < 3; ++n)
+            link.ways[link.way_count++] = {{n == 0 ? 1.0 : 0.0, n == 1 ? 1.0 : 0.0, n == 2 ? 1.0 : 0.0}, space[n]};
+        link.mobility = glm::dmat3(1.0);
+        return;
+    }
     const glm::dvec3 pull = spring * Spring(link).turn;
     const auto axes = chart.axes();
     const auto ways = chart.ways();

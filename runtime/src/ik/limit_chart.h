@@ -35,6 +35,7 @@ public:
         values_.fill(0.0);
     }
 
+    [[nodiscard]] bool is_free() const { return kind_ == Kind::free && size_ > 0; }
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] const Numbers& low() const { return low_; }
     [[nodiscard]] const Numbers& high() const { return high_; }
