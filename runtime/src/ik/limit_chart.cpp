@@ -1,4 +1,4 @@
-#include "limit_chart.h"
+#include "pose/limit_chart.h"
 
 #include "ik_problem.h"
 #include "math/nearest_rotation.h"

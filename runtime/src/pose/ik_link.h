@@ -1,12 +1,12 @@
 #pragma once
 
+#include "limit_chart.h"
+
 #include <bendy/runtime/constraint.h>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
-
-#include "ik/limit_chart.h"
 
 #include <array>
 #include <cstdint>

@@ -8,9 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <limits>
-#include <span>
-#include <tuple>
 
 namespace bendy {
 namespace {
@@ -21,19 +20,10 @@ constexpr double kBelowKnee = 0.08;               // leg lengths: where a knee e
 constexpr double kLoose = 1.7;                    // of the mean distance from a thigh's bone: a skirt
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// To the sides, edges and corners of a cube.
-constexpr std::size_t kDirections = 26;
-const std::array<glm::dvec3, kDirections>& directions() {
-    static const std::array<glm::dvec3, kDirections> kWays = [] {
-        std::array<glm::dvec3, kDirections> made{};
-        std::size_t count = 0;
-        for (int number = 0; number < 27; ++number) {
-            const glm::dvec3 way(number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1);
-            if (way != glm::dvec3(0.0)) made.at(count++) = glm::normalize(way);
-        }
-        return made;
-    }();
-    return kWays;
+/// To the sides, edges and corners of a cube; the one in the middle is nowhere.
+constexpr int kDirections = 27;
+glm::dvec3 direction(int number) {
+    return {number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1};
 }
 
 /// A joint whose vertices are looked at: those of which it has the largest weight.
@@ -43,13 +33,12 @@ struct SkinBone {
     double least = -kInfinite;  ///< metres: vertices that are lower in the standing pose do not count
     std::uint32_t end = kNone;  ///< if only vertices near to the bone from the joint to that count
     bool is_trunk = false;
-    double distances = 0.0;  ///< metres: sum of those from that bone
-    std::size_t vertices = 0;
-    struct Vertex {
-        std::uint32_t mesh = kNone, number = 0;
-        double distance = -kInfinite;
-    };
-    std::array<Vertex, kDirections> farthest{};
+};
+
+struct SkinVertex {
+    std::uint32_t mesh = 0, number = 0;
+    std::uint32_t joint = kNone;  ///< that has the largest weight
+    glm::dvec3 rest{0.0};         ///< in the standing pose, as if it were all of that joint
 };
 
 class SurfaceFinder {
@@ -58,35 +47,26 @@ public:
 
     Surface find() {
         list_bones();
-        for_each_vertex([&](SkinBone& bone, const SkinBone::Vertex& /*vertex*/, const glm::dvec3& rest) {
-            bone.distances += distance_from(bone, rest);
-            ++bone.vertices;
-        });
-        for_each_vertex(
-            [&](SkinBone& bone, SkinBone::Vertex vertex, const glm::dvec3& rest) { compare(bone, vertex, rest); });
-        const bool has_skin =
-            std::any_of(bones_.begin(), bones_.end(), [](const SkinBone& bone) { return bone.vertices > 0; });
-        for (const SkinBone& bone : bones_) has_skin ? take_skin(bone) : take_ball(bone);
+        read_vertices();
+        for (const SkinBone& bone : bones_) vertices_.empty() ? take_ball(bone) : take_skin(bone);
         finish(surface_.body);
         finish(surface_.arms);
         for (SurfacePart& end : surface_.ends) finish(end);
-        find_floor(has_skin);
+        find_floor();
         return std::move(surface_);
     }
 
 private:
     void list_bones() {
-        const double trunk = height_of(body_.hips()) - kBelowHips * body_.lengths().front();
+        const double least = height_of(body_.hips()) - kBelowHips * body_.lengths().front();
         for (const std::uint32_t joint :
              body_.joints({Role::hips, Role::spine, Role::chest, Role::upper_chest, Role::neck, Role::head,
                            Role::left_shoulder, Role::right_shoulder})) {
-            bones_.push_back({joint, &surface_.body, trunk, kNone, true});
+            bones_.push_back({joint, &surface_.body, least, kNone, true});
         }
         const std::uint32_t head = body_.joint(Role::head);
         if (head != kNone) list_below(head, height_of(body_.place(head)), surface_.body, true);
         for (std::size_t k = 0; k < body_.limbs().size(); ++k) list_limb(body_.limbs()[k], surface_.ends.at(k));
-        bone_of_.assign(model_.joints().size(), kNone);
-        for (std::uint32_t k = 0; k < bones_.size(); ++k) bone_of_[bones_[k].joint] = k;
     }
 
     void list_limb(const Limb& limb, SurfacePart& end) {
@@ -115,46 +95,45 @@ private:
 
     [[nodiscard]] double height_of(const glm::dvec3& place) const { return glm::dot(body_.up(), place); }
 
-    /// Calls a function with each vertex that is mostly of one bone, and its place in the standing pose as if it were
-    /// all of that.
-    template <class Use>
-    void for_each_vertex(const Use& use) {
-        for (std::uint32_t number = 0; number < model_.meshes().size(); ++number) {
-            const Mesh& mesh = model_.meshes()[number];
-            if (mesh.positions.empty()) continue;
-            for (std::uint32_t vertex = 0; vertex < mesh.vertices; ++vertex) {
-                const SurfacePart::Share share = largest_share(number, vertex);
-                if (share.joint >= bone_of_.size() || bone_of_[share.joint] == kNone) continue;
-                const glm::dvec3 rest(body_.rest(share.joint) * glm::dvec4(share.place, 1.0));
-                if (!std::isfinite(rest.x + rest.y + rest.z)) continue;
-                use(bones_[bone_of_[share.joint]], {number, vertex}, rest);
-            }
+    [[nodiscard]] glm::dvec3 at_rest(const SurfacePart::Share& share) const {
+        return {body_.rest(share.joint) * glm::dvec4(share.place, 1.0)};
+    }
+
+    void read_vertices() {
+        for (std::uint32_t mesh = 0; mesh < model_.meshes().size(); ++mesh) {
+            if (model_.meshes()[mesh].positions.empty()) continue;
+            for (std::uint32_t number = 0; number < model_.meshes()[mesh].vertices; ++number) read_vertex(mesh, number);
         }
     }
 
-    [[nodiscard]] SurfacePart::Share largest_share(std::uint32_t mesh, std::uint32_t vertex) const {
-        SurfacePart::Share largest{kNone, 0, 0.0, {}};
-        for_each_share(mesh, vertex, [&](const SurfacePart::Share& share) {
-            if (share.weight > largest.weight) largest = share;
-        });
-        return largest;
+    void read_vertex(std::uint32_t mesh, std::uint32_t number) {
+        const SurfacePart::Share* largest = nullptr;
+        for (const SurfacePart::Share& share : shares_of(mesh, number)) {
+            if (largest == nullptr || share.weight > largest->weight) largest = &share;
+        }
+        if (largest == nullptr) return;
+        const glm::dvec3 rest = at_rest(*largest);
+        if (std::isfinite(rest.x + rest.y + rest.z)) vertices_.push_back({mesh, number, largest->joint, rest});
     }
 
-    template <class Use>
-    void for_each_share(std::uint32_t number, std::uint32_t vertex, const Use& use) const {
+    /// Returns what moves a vertex.
+    const std::vector<SurfacePart::Share>& shares_of(std::uint32_t number, std::uint32_t vertex) {
         const Mesh& mesh = model_.meshes()[number];
         const glm::dvec4 place(glm::dvec3(mesh.positions.vec3(vertex)), 1.0);
+        shares_.clear();
         if (mesh.is_rigid()) {
-            use({model_.rigid_mover(number, vertex), 0, 1.0, glm::dvec3(place)});
-            return;
+            const std::uint32_t mover = model_.rigid_mover(number, vertex);
+            if (mover < model_.joints().size()) shares_.push_back({mover, 0, 1.0, glm::dvec3(place)});
+            return shares_;
         }
         for (std::uint32_t k = 0; k < mesh.bones->components; ++k) {
             const double weight = mesh.weights->number(vertex, k);
             if (!(weight > 0.0)) continue;
             const std::uint32_t bone = mesh.bones->index(vertex, k);
             const glm::dmat4 bind(mesh.palette.inverse_bind()[bone]);
-            use({mesh.palette.joints[bone], 0, weight, glm::dvec3(bind * place)});
+            shares_.push_back({mesh.palette.joints[bone], 0, weight, glm::dvec3(bind * place)});
         }
+        return shares_;
     }
 
     [[nodiscard]] double distance_from(const SkinBone& bone, const glm::dvec3& rest) const {
@@ -165,49 +144,58 @@ private:
         return glm::length(square > 0.0 ? to - way * std::clamp(glm::dot(to, way) / square, 0.0, 1.0) : to);
     }
 
-    void compare(SkinBone& bone, SkinBone::Vertex vertex, const glm::dvec3& rest) const {
-        const double mean = bone.distances / static_cast<double>(bone.vertices);
-        if (height_of(rest) < bone.least || distance_from(bone, rest) > kLoose * mean) return;
-        for (std::size_t k = 0; k < kDirections; ++k) {
-            vertex.distance = glm::dot(rest, directions().at(k));
-            if (vertex.distance > bone.farthest.at(k).distance) bone.farthest.at(k) = vertex;
-        }
-    }
-
     void take_skin(const SkinBone& bone) {
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> taken;
-        for (const SkinBone::Vertex& vertex : bone.farthest) {
-            const std::pair key(vertex.mesh, vertex.number);
-            if (vertex.mesh == kNone || std::find(taken.begin(), taken.end(), key) != taken.end()) continue;
-            taken.push_back(key);
-            const auto point = static_cast<std::uint32_t>(bone.part->radii.size());
-            bone.part->radii.push_back(0.0);
-            for_each_share(vertex.mesh, vertex.number, [&](SurfacePart::Share share) {
-                share.point = point;
-                if (share.joint < model_.joints().size()) bone.part->shares.push_back(share);
-            });
+        double sum = 0.0, count = 0.0;
+        for (const SkinVertex& vertex : vertices_) {
+            if (vertex.joint != bone.joint) continue;
+            sum += distance_from(bone, vertex.rest);
+            ++count;
+        }
+        std::array<const SkinVertex*, kDirections> farthest{};
+        for (const SkinVertex& vertex : vertices_) {
+            const bool is_here = vertex.joint == bone.joint && height_of(vertex.rest) >= bone.least;
+            if (!is_here || distance_from(bone, vertex.rest) * count > kLoose * sum) continue;
+            for (int k = 0; k < kDirections; ++k) {
+                const SkinVertex*& most = farthest.at(static_cast<std::size_t>(k));
+                if (most == nullptr || glm::dot(vertex.rest - most->rest, direction(k)) > 0.0) most = &vertex;
+            }
+        }
+        for (auto one = farthest.begin(); one != farthest.end(); ++one) {
+            if (*one != nullptr && std::find(farthest.begin(), one, *one) == one) take_vertex(**one, *bone.part);
         }
     }
 
-    void take_ball(const SkinBone& bone) {
+    void take_vertex(const SkinVertex& vertex, SurfacePart& part) {
+        const auto point = static_cast<std::uint32_t>(part.radii.size());
+        part.radii.push_back(0.0);
+        for (SurfacePart::Share share : shares_of(vertex.mesh, vertex.number)) {
+            share.point = point;
+            part.shares.push_back(share);
+        }
+    }
+
+    void take_ball(const SkinBone& bone) const {
         bone.part->shares.push_back({bone.joint, static_cast<std::uint32_t>(bone.part->radii.size())});
         bone.part->radii.push_back((bone.is_trunk ? kBall : kLimbBall) * body_.lengths().front());
     }
 
-    static void finish(SurfacePart& part) {
+    void finish(SurfacePart& part) const {
         part.heights.resize(part.radii.size());
-        std::sort(part.shares.begin(), part.shares.end(),
-                  [](const auto& a, const auto& b) { return std::tie(a.joint, a.point) < std::tie(b.joint, b.point); });
+        const std::vector<SurfacePart::Share> shares = std::move(part.shares);
+        part.shares.clear();
+        for (std::uint32_t joint = 0; joint < model_.joints().size(); ++joint) {
+            for (const SurfacePart::Share& share : shares) {
+                if (share.joint == joint) part.shares.push_back(share);
+            }
+        }
     }
 
     /// Soles may be below the joints of the feet.
-    void find_floor(bool has_skin) {
+    void find_floor() {
         surface_.floor = height_of(body_.ground());
-        for (std::size_t foot = 0; foot < 2 && has_skin; ++foot) {
-            for (const SurfacePart::Share& share : surface_.ends.at(foot).shares) {
-                const glm::dvec3 rest(body_.rest(share.joint) * glm::dvec4(share.place, 1.0));
-                surface_.floor = std::min(surface_.floor, height_of(rest));
-            }
+        for (std::size_t foot = 0; foot < 2 && !vertices_.empty(); ++foot) {
+            for (const SurfacePart::Share& share : surface_.ends.at(foot).shares)
+                surface_.floor = std::min(surface_.floor, height_of(at_rest(share)));
         }
         surface_.floor += body_.raised();
     }
@@ -216,7 +204,8 @@ private:
     const Model& model_;
     Surface surface_;
     std::vector<SkinBone> bones_;
-    std::vector<std::uint32_t> bone_of_;  // by joint
+    std::vector<SkinVertex> vertices_;
+    std::vector<SurfacePart::Share> shares_;  // of one vertex
 };
 
 }  // namespace
