@@ -29,7 +29,10 @@ double turn_between(const glm::quat& a, const glm::quat& b) {
 
 glm::quat turn_part_way(const Constraint* constraint, const glm::quat& rest, const glm::quat& from, const glm::quat& to,
                         double share) {
-    if (constraint == nullptr) return glm::quat(between(glm::dquat(from), glm::dquat(to), share));
+    if (constraint == nullptr) {
+        const glm::quat way(between(glm::dquat(from), glm::dquat(to), share));
+        return way;
+    }
     const auto [legal_from, beyond_from] = split(*constraint, rest, from);
     const auto [legal_to, beyond_to] = split(*constraint, rest, to);
     const glm::dquat R =

@@ -225,8 +225,9 @@ double SurfacePart::lowest(PoseState& pose, const glm::dvec3& up) {
         }
         heights[share.point] += share.weight * glm::dot(row, glm::dvec4(share.place, 1.0));
     }
-    const auto least = std::min_element(heights.begin(), heights.end());
-    return least == heights.end() ? kInfinite : *least;
+    double least = kInfinite;
+    for (const double height : heights) least = std::min(least, height);
+    return least;
 }
 
 }  // namespace bendy

@@ -33,9 +33,11 @@ public:
         for (std::size_t k = 0; k < frames_.size(); ++k) found.push_back(rotation(k));
         const std::vector<glm::quat> forwards = follow(found, false, repeats), backwards = follow(found, true, repeats);
         std::vector<glm::quat> mean;
-        for (std::size_t k = 0; k < found.size(); ++k)
-            mean.push_back(forwards[k] == backwards[k] ? found[k]
-                                                       : turn_part_way(limit_, rest_, forwards[k], backwards[k], 0.5));
+        mean.reserve(found.size());
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            const bool is_found = forwards[k] == backwards[k];
+            mean.push_back(is_found ? found[k] : turn_part_way(limit_, rest_, forwards[k], backwards[k], 0.5));
+        }
         mean = follow(mean, false, repeats);  // where the two are half a turn apart, so that their mean jumps
         for (std::size_t k = 0; k < found.size(); ++k) {
             if (mean[k] == found[k]) continue;
