@@ -70,7 +70,7 @@ FootContact find_contact(const RetargetPlan& plan, const FootPlan& foot, PoseSta
 }
 
 float body_contact(double height, double above_feet) {
-    constexpr double kLies = 0.12, kInAir = 0.35;   // leg lengths
+    constexpr double kLies = 0.12, kInAir = 0.3;    // leg lengths
     constexpr double kSits = 0.25, kStands = 0.45;  // leg lengths above the feet
     constexpr double kSinks = 0.5, kElsewhere = 1;  // leg lengths below the ground
     return eased(height, kLies, kInAir) * eased(above_feet, kSits, kStands) * eased(-height, kSinks, kElsewhere);

@@ -26,19 +26,20 @@ glm::dvec3 direction(int number) {
     return {number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1};
 }
 
-/// A joint whose vertices are looked at: those of which it has the largest weight.
+/// A joint whose vertices are looked at: those of which it has the largest weight, or one of some joints below it.
 struct SkinBone {
     std::uint32_t joint = 0;
     SurfacePart* part = nullptr;
-    double least = -kInfinite;  ///< metres: vertices that are lower in the standing pose do not count
+    double least = -kInfinite;  ///< metres: its vertices that are lower in the standing pose do not count
     std::uint32_t end = kNone;  ///< if only vertices near to the bone from the joint to that count
     bool is_trunk = false;
+    double least_below = -kInfinite;  ///< metres: the same as `least`, of the joints below it
 };
 
 struct SkinVertex {
     std::uint32_t mesh = 0, number = 0;
-    std::uint32_t joint = kNone;  ///< that has the largest weight
-    glm::dvec3 rest{0.0};         ///< in the standing pose, as if it were all of that joint
+    const SkinBone* bone = nullptr;
+    glm::dvec3 rest{0.0};  ///< in the standing pose, as if it were all of the joint that has the largest weight
 };
 
 class SurfaceFinder {
@@ -59,14 +60,20 @@ public:
 private:
     void list_bones() {
         const double least = height_of(body_.hips()) - kBelowHips * body_.lengths().front();
+        bone_of_.assign(model_.joints().size(), kNone);
         for (const std::uint32_t joint :
-             body_.joints({Role::hips, Role::spine, Role::chest, Role::upper_chest, Role::neck, Role::head,
-                           Role::left_shoulder, Role::right_shoulder})) {
-            bones_.push_back({joint, &surface_.body, least, kNone, true});
+             body_.joints({Role::hips, Role::spine, Role::chest, Role::upper_chest, Role::left_shoulder,
+                           Role::right_shoulder, Role::neck, Role::head})) {
+            list({joint, &surface_.body, least, kNone, true, height_of(body_.place(joint))});
         }
         const std::uint32_t head = body_.joint(Role::head);
-        if (head != kNone) list_below(head, height_of(body_.place(head)), surface_.body, true);
+        if (head != kNone) list_below(head, true);
         for (std::size_t k = 0; k < body_.limbs().size(); ++k) list_limb(body_.limbs()[k], surface_.ends.at(k));
+    }
+
+    void list(const SkinBone& bone) {
+        bone_of_[bone.joint] = static_cast<std::uint32_t>(bones_.size());
+        bones_.push_back(bone);
     }
 
     void list_limb(const Limb& limb, SurfacePart& end) {
@@ -74,22 +81,19 @@ private:
         const double knee = height_of(body_.place(limb.joints[1])) - kBelowKnee * body_.lengths().front();
         const double least = limb.is_leg ? knee : -kInfinite;
         SurfacePart& part = limb.is_leg ? surface_.body : surface_.arms;
-        bones_.push_back({limb.joints[0], &part, least, limb.is_leg ? limb.joints[1] : kNone});
-        bones_.push_back({limb.joints[1], &part, least});
-        bones_.push_back({limb.foot_joint(), &end});
-        list_below(limb.foot_joint(), -kInfinite, end, limb.is_leg);
+        list({limb.joints[0], &part, least, limb.is_leg ? limb.joints[1] : kNone});
+        list({limb.joints[1], &part, least});
+        list({limb.foot_joint(), &end});
+        list_below(limb.foot_joint(), limb.is_leg);
     }
 
-    /// Lists the joints below the one listed last. \param all  also those without a role, such as for hair; of a hand,
-    /// props have none
-    void list_below(std::uint32_t joint, double least, SurfacePart& part, bool all) {
-        std::vector<bool> is_below(model_.joints().size());
-        is_below[joint] = true;
-        for (++joint; joint < is_below.size(); ++joint) {
+    /// Counts the joints below one as that. \param all  also those without a role, such as for hair; of a hand, props
+    /// have none
+    void list_below(std::uint32_t top, bool all) {
+        for (std::uint32_t joint = top + 1; joint < bone_of_.size(); ++joint) {
             const std::uint32_t parent = model_.parents()[joint];
-            if (parent == kNone || !is_below[parent] || !(all || body_.has_role(joint))) continue;
-            is_below[joint] = true;
-            bones_.push_back({joint, &part, least});
+            const bool is_below = parent != kNone && bone_of_[parent] == bone_of_[top];
+            if (is_below && (all || body_.has_role(joint))) bone_of_[joint] = bone_of_[top];
         }
     }
 
@@ -111,9 +115,12 @@ private:
         for (const SurfacePart::Share& share : shares_of(mesh, number)) {
             if (largest == nullptr || share.weight > largest->weight) largest = &share;
         }
-        if (largest == nullptr) return;
+        if (largest == nullptr || bone_of_[largest->joint] == kNone) return;
+        const SkinBone& bone = bones_[bone_of_[largest->joint]];
         const glm::dvec3 rest = at_rest(*largest);
-        if (std::isfinite(rest.x + rest.y + rest.z)) vertices_.push_back({mesh, number, largest->joint, rest});
+        if (std::isfinite(rest.x + rest.y + rest.z) &&
+            (largest->joint == bone.joint || height_of(rest) >= bone.least_below))
+            vertices_.push_back({mesh, number, &bone, rest});
     }
 
     /// Returns what moves a vertex.
@@ -147,13 +154,13 @@ private:
     void take_skin(const SkinBone& bone) {
         double sum = 0.0, count = 0.0;
         for (const SkinVertex& vertex : vertices_) {
-            if (vertex.joint != bone.joint) continue;
+            if (vertex.bone != &bone) continue;
             sum += distance_from(bone, vertex.rest);
             ++count;
         }
         std::array<const SkinVertex*, kDirections> farthest{};
         for (const SkinVertex& vertex : vertices_) {
-            const bool is_here = vertex.joint == bone.joint && height_of(vertex.rest) >= bone.least;
+            const bool is_here = vertex.bone == &bone && height_of(vertex.rest) >= bone.least;
             if (!is_here || distance_from(bone, vertex.rest) * count > kLoose * sum) continue;
             for (int k = 0; k < kDirections; ++k) {
                 const SkinVertex*& most = farthest.at(static_cast<std::size_t>(k));
@@ -204,6 +211,7 @@ private:
     const Model& model_;
     Surface surface_;
     std::vector<SkinBone> bones_;
+    std::vector<std::uint32_t> bone_of_;  // by joint
     std::vector<SkinVertex> vertices_;
     std::vector<SurfacePart::Share> shares_;  // of one vertex
 };
