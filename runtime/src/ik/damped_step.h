@@ -84,7 +84,7 @@ inline glm::dmat3 cross_matrix(const glm::dvec3& arm) {
 /// \param problem  has is_reached(), measure(), take_step(spring, damping), and take_back_step()
 template <class Problem>
 std::uint32_t descend_damped(Problem& problem, std::uint32_t most) {
-    constexpr double kSpring = 1e-2, kLooser = 0.1, kStuck = 1e-3;
+    constexpr double kSpring = 1e-2, kLooser = 0.1, kStuck = 1e-4;
     constexpr double kFirst = 1e-3, kHarder = 10.0, kHardest = 1e3;
     double spring = kSpring, more = 0.0;
     Measured at = problem.measure();

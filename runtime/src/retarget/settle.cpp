@@ -9,6 +9,7 @@
 #include "pose/pose_state.h"
 
 #include <bendy/format/trig.h>
+#include <bendy/runtime/turn.h>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -29,6 +30,8 @@ constexpr double kFullTurn = 6.283185307179586;
 // When an upper bone turns about itself for the lower one: sines of the angle between them; radians from the side to
 // which that bends; and radians by which it is off, where half of the turn is made.
 constexpr double kBent[] = {0.1, 0.3}, kBehind[] = {1.9, 2.9}, kSlack = 0.035;
+// What is left of the way, where limits stop a hand that reaches: it goes back the more of it, and all of it.
+constexpr double kWorth[] = {0.3, 0.9};
 constexpr double kFarBeyond = 0.79, kMostBeyond = 1.57;  // radians: 45 and 90 degrees
 
 /// A limb in one frame, model space.
@@ -157,14 +160,17 @@ private:
 
     /// Hands that are near each other are as near on the target, in arm lengths, although its shoulders may be broader.
     void join_hands(const std::optional<ContactWeights>& contacts) {
-        constexpr double kTogether = 0.25, kApart = 0.5;  // arm lengths
+        constexpr double kTogether = 0.25, kApart = 0.5;   // arm lengths
+        constexpr double kSomewhat = 0.3, kClearly = 0.6;  // sines: straighter arms turn right round for little
         const std::size_t left = plan_.feet.size(), right = left + 1;
-        if (!plan_.limbs[left].can_reach || !plan_.limbs[right].can_reach) return;
+        if (!may_join(plan_.limbs[left]) || !may_join(plan_.limbs[right])) return;
         const auto source_hand = [&](std::size_t k) {
             return glm::dvec3(source_.fresh_matrix(plan_.hands.at(k).heel.source)[3]);
         };
         const glm::dvec3 way = source_hand(1) - source_hand(0);
-        const float found = eased(glm::length(way) / plan_.source_arm, kTogether, kApart);
+        const double bent = std::min(bend_of(plan_.limbs[left]), bend_of(plan_.limbs[right]));
+        const double near = eased(glm::length(way) / plan_.source_arm, kTogether, kApart);
+        const auto found = static_cast<float>(near * smooth(bent, kSomewhat, kClearly));
         const double weight = weight_of(Contact::hands, contacts, found);
         if (!(weight > 0.0)) return;
         LimbFrame &from = limbs_.at(left), &to = limbs_.at(right);
@@ -174,6 +180,16 @@ private:
             limb->wanted += share * weight * (1.0 - limb->planted) * off;
             limb->joined = weight;
         }
+    }
+
+    /// A hard limit would stop an arm on its way to the other one, and let it go with a jump.
+    [[nodiscard]] bool may_join(const LimbPlan& plan) const { return plan.can_reach && !obeys_limits(plan); }
+
+    /// Returns the sine of the angle by which a limb is bent.
+    [[nodiscard]] double bend_of(const LimbPlan& plan) const {
+        const glm::dvec3 upper = place(plan.lower) - place(plan.upper), lower = place(plan.end) - place(plan.lower);
+        const double lengths = glm::length(upper) * glm::length(lower);
+        return lengths > 0.0 ? glm::length(glm::cross(upper, lower)) / lengths : 0.0;
     }
 
     /// Hands and feet of who lies are not below the ground.
@@ -373,12 +389,18 @@ private:
         return glm::length(place(plan.foot) - (limb.wanted + limb.below));
     }
 
-    /// Leaves the limb as it is if it cannot come nearer within the limits, or only turned over. Returns the distance
-    /// that is left.
+    /// Leaves a leg as it is if it cannot come nearer within the limits, or only turned over; an arm goes back as far
+    /// as it cannot. Returns the distance that is left.
     double try_to_reach(const LimbPlan& plan, const LimbFrame& limb, double distance) {
         const std::array joints{plan.upper, plan.lower, plan.end};
         std::array<JointTransform, joints.size()> before;
         for (std::size_t k = 0; k < joints.size(); ++k) before[k] = to_.local_of(joints[k]);
+        if (plan.is_arm) {
+            reach_for(plan, limb, Solver::two_bone);
+            const double share = 1.0 - smooth(distance_left(plan, limb) / distance, kWorth[0], kWorth[1]);
+            for (std::size_t k = 0; k < joints.size() && share < 1.0; ++k) go_back(joints[k], before[k], share);
+            return distance_left(plan, limb);
+        }
         // Where limits stop the two-bone solver, it turns a leg over; least squares go on from its pose.
         for (const Solver solver : {Solver::two_bone, Solver::least_squares}) {
             reach_for(plan, limb, solver);
@@ -389,6 +411,13 @@ private:
             if (!is_over) break;
         }
         return distance;
+    }
+
+    /// \param share  of the way from how the joint was that it keeps
+    void go_back(std::uint32_t joint, const JointTransform& before, double share) {
+        const Constraint* const limit = plan_.options.limits == Limits::off ? nullptr : plan_.target.constraint(joint);
+        const glm::quat& rest = plan_.target.joints()[joint].rest.rotation;
+        to_.set_rotation(joint, turn_part_way(limit, rest, before.rotation, to_.local_of(joint).rotation, share));
     }
 
     /// Returns true if solvers obey the limits of a limb: not where all are soft.
@@ -449,7 +478,8 @@ private:
         const Chain& chain = plan.chain != nullptr ? *plan.chain : plan.own;
         ReachOptions options;
         options.solver = solver;
-        options.obey_constraints = obeys_limits(plan);
+        // An arm reaches freely and is then moved inside its limits, so that it does not jump where they stop it.
+        options.obey_constraints = obeys_limits(plan) && !plan.is_arm;
         // Without a pole the solver keeps the plane in which a limb is bent.
         options.softness = 0.0f;
         options.restarts = 0;
