@@ -82,7 +82,7 @@ export class BorrowedMotion extends Motion {
 
   override update(seconds: number): void {
     super.update(seconds);
-    this.#borrowed.apply(this.#target);
+    this.#borrowed.apply(this.#target, seconds);
   }
 
   override dispose(): void {

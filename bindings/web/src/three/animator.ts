@@ -224,7 +224,7 @@ export class BendyAnimator {
     checkNumber(seconds, 'seconds');
     if (this.#fade.isPlaying) {
       this.#fade.advance(seconds).sample(this.#borrowed?.pose ?? this.pose);
-      this.#borrowed?.apply(this.pose, Math.min(seconds, 1));
+      this.#borrowed?.apply(this.pose, seconds);
     }
     this.#seconds = Math.min(Math.max(seconds, 0), 1);
     try {

@@ -18,7 +18,7 @@ export class Borrowed {
 
   /** Sets the pose of the one that borrows, so many seconds after the last call. */
   apply(target: Pose, seconds: number): void {
-    this.#retarget.apply(target, this.pose, this.#state, undefined, seconds);
+    this.#retarget.apply(target, this.pose, this.#state, undefined, Math.min(seconds, 1));
   }
 
   /** Forgets the last frame: for a motion that jumps. */
