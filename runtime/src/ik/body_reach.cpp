@@ -67,7 +67,7 @@ struct BodyReachPlan {
 
 namespace {
 
-/// Of the root's shift, beside a turn in radians: moving the whole body is the second choice.
+/// Weight of shifting the root relative to turning a joint by a radian: the whole body moves only if turns do not do.
 constexpr double kRootFreedom = 0.25;
 
 double weight_of(float weight) {

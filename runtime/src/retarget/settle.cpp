@@ -30,7 +30,8 @@ constexpr double kFullTurn = 6.283185307179586;
 // When an upper bone turns about itself for the lower one: sines of the angle between them; radians from the side to
 // which that bends; and radians by which it is off, where half of the turn is made.
 constexpr double kBent[] = {0.1, 0.3}, kBehind[] = {1.9, 2.9}, kSlack = 0.035;
-// What is left of the way, where limits stop a hand that reaches: it goes back the more of it, and all of it.
+// If limits stop a hand on its way, the arm gives up part of the reach: none up to the first share of the distance
+// left, all of it from the second on.
 constexpr double kWorth[] = {0.3, 0.9};
 constexpr double kFarBeyond = 0.79, kMostBeyond = 1.57;  // radians: 45 and 90 degrees
 
@@ -413,7 +414,7 @@ private:
         return distance;
     }
 
-    /// \param share  of the way from how the joint was that it keeps
+    /// Undoes part of a joint's turn. \param share  of the turn that is kept, 0 to 1
     void go_back(std::uint32_t joint, const JointTransform& before, double share) {
         const Constraint* const limit = plan_.options.limits == Limits::off ? nullptr : plan_.target.constraint(joint);
         const glm::quat& rest = plan_.target.joints()[joint].rest.rotation;
@@ -494,7 +495,7 @@ private:
         if (plan_.options.limits == Limits::off) return;
         for (const std::uint32_t joint : {plan.upper, plan.lower, plan.end}) {
             const Constraint* constraint = plan_.target.constraint(joint);
-            // What is softened already is not softened again: a hand goes a short way.
+            // Soft limits have acted on the arm already; a short reach does not call for them again.
             if (constraint != nullptr && !(plan.is_arm && is_soft(*constraint))) (void)constrain(*constraint);
         }
     }

@@ -14,7 +14,7 @@ struct PoseState;
 
 /// Points of a body's skin that lie farthest in many directions.
 struct SurfacePart {
-    /// What one joint adds to a point, as in skinning.
+    /// One joint's contribution to a point, as in skinning.
     struct Share {
         std::uint32_t joint = 0, point = 0;
         double weight = 1.0;

@@ -78,9 +78,9 @@ struct RetargetError {
 /// Says what is wrong and what to write in the rig file. Allocates.
 std::string error_text(const RetargetError& error);
 
-/// What may touch the ground. Feet have two points of contact each; those of an animal's hind legs are named as a
-/// human's, and its heel is where the paw or the hoof begins. Of a human hands do, and the body of who sits, lies or
-/// kneels: head, trunk, thighs or knees. Hands that are near each other, such as on one sword, are a contact, too.
+/// Contacts. Each foot has two points that may touch the ground; those of an animal's hind legs have the names of a
+/// human's, and the heel is where the paw or the hoof begins. A human's hands may touch it too, and so may its body
+/// (head, trunk, thighs or knees) when it sits, lies or kneels. Hands close together, as on one sword, also count.
 enum class Contact : std::uint8_t {
     left_heel,
     left_toes,
@@ -96,11 +96,11 @@ enum class Contact : std::uint8_t {
     hands,
 };
 inline constexpr std::size_t kContacts = 12;
-/// How firmly each of them stands on the ground: 0 in the air, 1 on the ground.
+/// How firm each contact is: 0 none (a foot in the air), 1 full (on the ground).
 using ContactWeights = std::array<float, kContacts>;
 
-/// What a character remembers from one frame to the next: where its feet stand and its hands lie, and how its joints
-/// were turned. Make a new one where the motion jumps (another clip, a seek).
+/// A character's memory of the last frame: where its feet and hands rested, and the rotations of its joints. Make a
+/// new one where the motion jumps (another clip, a seek).
 struct RetargetState {
     struct Stand {
         glm::vec3 offset{0.0f};  ///< metres, target: from where the source's point would be, in the foot's heading
