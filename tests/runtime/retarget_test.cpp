@@ -30,6 +30,7 @@ using test::HumanSpec;
 using test::kDirections;
 using test::made;
 
+constexpr float kHand = 0.03f;  // metres: half the edge of a hand
 constexpr float kInf = std::numeric_limits<float>::infinity();
 const std::vector<std::pair<std::string, std::string>> kLimbs{
     {"leftArm", "leftForeArm"},    {"leftForeArm", "leftHand"}, {"rightArm", "rightForeArm"},
@@ -42,7 +43,8 @@ public:
     explicit Human(const HumanSpec& spec) : PosedBody(HumanModel(spec), spec.facing) {}
 };
 
-double worst_direction(Human& source, Human& target) {
+template <typename Body>
+double worst_direction(Body& source, Body& target) {
     double worst = 0.0;
     for (const auto& [from, to] : kLimbs)
         worst = std::max(worst, glm::length(source.way(from, to) - target.way(from, to)));
@@ -676,6 +678,84 @@ TEST(Retarget, HandsThatHoldOneThingStayTogether) {
     EXPECT_LT(apart({}, 75.0), 1e-3);
     EXPECT_GT(apart(kDirections, 75.0), 0.05);
     EXPECT_EQ(apart({}, 20.0), apart(kDirections, 20.0));
+}
+
+/// A human with boxes for chest and hips, of these half edges, and for hands and feet.
+test::PosedBody<HumanModel> with_trunk(HumanSpec human, const glm::vec3& half) {
+    human.axes = 0;
+    HumanModel model(human);
+    const auto box = [&](const std::string& joint, const glm::vec3& edges) {
+        std::vector<glm::vec3> corners;
+        for (const float x : {-edges.x, edges.x}) {
+            for (const float y : {-edges.y, 0.0f, 0.5f * edges.y, edges.y}) {
+                for (const float z : {-edges.z, edges.z}) corners.emplace_back(x, y, z);
+            }
+        }
+        model.spec.meshes.push_back({model.joint(joint), std::move(corners), {}, {}, {0, 1, 2, 5, 6, 7}, {}});
+    };
+    box("spine2", half);
+    box("hips", half);
+    for (const char* side : {"left", "right"}) {
+        box(std::string(side) + "Hand", glm::vec3(kHand));
+        box(std::string(side) + "Foot", glm::vec3(0.04f));
+    }
+    return {std::move(model), 0.0};
+}
+
+TEST(Retarget, AHandOnTheChestLiesOnADeeperOne) {
+    auto source = with_trunk({}, {0.25, 0.2, 0.12}), target = with_trunk({.collar = 0.16}, {0.25, 0.2, 0.22});
+    Retarget retargeted = made(source, target), free = made(source, target, kDirections);
+    ContactWeights contacts{};
+    // Returns how far the hand is in front of the chest. bent: degrees, of the elbow
+    const auto gap = [&](Retarget& by, double bent) {
+        source.pose().set_rest();
+        source.turn_by("leftArm", {0, 1, 0}, -30.0);
+        source.turn_by("leftForeArm", {0, 1, 0}, -bent);
+        RetargetState state;
+        const auto done = retarget(target.pose(), by, source.pose(), state);
+        EXPECT_TRUE(done);
+        contacts = done->contacts;
+        return target.place("leftHand").z - target.place("spine2").z - 0.22 - kHand;
+    };
+    const auto hand = static_cast<std::size_t>(Contact::left_hand_body);
+    EXPECT_NEAR(gap(retargeted, 145.0), 0.0, 0.01);
+    EXPECT_EQ(contacts[hand], 1.0f);
+    EXPECT_EQ(contacts[hand + 1], 0.0f);
+    EXPECT_LT(gap(free, 145.0), -0.05);
+    EXPECT_EQ(contacts[hand], 0.0f);
+    EXPECT_EQ(gap(retargeted, 80.0), gap(free, 80.0));
+    EXPECT_EQ(contacts[hand], 0.0f);
+    double last = gap(retargeted, 80.0);
+    for (double bent = 80.5; bent <= 145.0; bent += 0.5) {
+        const double now = gap(retargeted, bent);
+        EXPECT_LT(std::abs(now - last), 0.01) << bent;
+        EXPECT_GT(now, -0.01) << bent;
+        last = now;
+    }
+}
+
+TEST(Retarget, AHandThatHangsIsNotInsideOfABroaderBody) {
+    auto source = with_trunk({}, {0.15, 0.2, 0.12}), target = with_trunk({}, {0.22, 0.2, 0.2});
+    Retarget retargeted = made(source, target), free = made(source, target, kDirections);
+    const auto gap = [&](Retarget& by, double down, double& off) {
+        source.pose().set_rest();
+        source.turn_by("leftArm", {0, 0, 1}, -down);
+        RetargetState state;
+        EXPECT_TRUE(retarget(target.pose(), by, source.pose(), state));
+        off = worst_direction(source, target);
+        return target.place("leftHand").x - 0.22 - kHand;
+    };
+    double off = 0.0;
+    EXPECT_LT(gap(free, 85.0, off), -0.04);
+    EXPECT_GT(gap(retargeted, 85.0, off), 0.0);
+    EXPECT_GT(gap(retargeted, 40.0, off), 0.0);
+    EXPECT_LT(off, 2e-5) << "a hand that is outside anyway";
+    double last = gap(retargeted, 40.0, off);
+    for (double down = 40.5; down <= 85.0; down += 0.5) {
+        const double now = gap(retargeted, down, off);
+        EXPECT_LT(std::abs(now - last), 0.01) << down;
+        last = now;
+    }
 }
 
 TEST(Retarget, AJointThatJumpsTurnsQuicklyIfItIsKnownHowLongTheFrameTook) {

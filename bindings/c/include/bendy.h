@@ -1384,9 +1384,10 @@ typedef struct bendy_retargeted {
     float missed;          /* metres: most that a hand or foot is away from where it was to be */
     uint32_t missed_joint; /* of the target, or BENDY_NONE */
     float lowered;         /* metres: by how much the hips were lowered so that the feet reach the ground */
-    float contacts[12];    /* 0 in the air, 1 on the ground: left heel, left toes, right heel, right toes; the same of
+    float contacts[14];    /* 0 in the air, 1 on the ground: left heel, left toes, right heel, right toes; the same of
                               an animal's front feet; a human's left hand, right hand, and its body, if it sits, lies or
-                              kneels; how near its hands are to each other; as given or, otherwise, as found */
+                              kneels; how near its hands are to each other; left and right hand on the own body;
+                              as given or, otherwise, as found */
 } bendy_retargeted;
 
 /* Sets `pose`, of the target, to a pose of the source. Where neither a constraint nor a contact acts, limbs have the
@@ -1398,7 +1399,7 @@ typedef struct bendy_retargeted {
  * finite, and the pose is then at rest. */
 BENDY_API bendy_status bendy_retarget_pose(bendy_pose* pose, bendy_retarget* retarget,
                                            bendy_pose* source /* of another model */, bendy_retarget_state* state,
-                                           const float contacts[12] /* or NULL */, float seconds,
+                                           const float contacts[14] /* or NULL */, float seconds,
                                            bendy_retargeted* result /* or NULL */, bendy_error* error);
 
 /* ---- Levels of detail ------------------------------------------------------------------------------------ */

@@ -1451,7 +1451,7 @@ bendy_status bendy_retarget_pose(bendy_pose* pose, bendy_retarget* retarget, ben
         if (const bendy_status status = check_pointer(source, "source", error)) return status;
         if (const bendy_status status = check_pointer(state, "state", error)) return status;
         if (const bendy_status status =
-                contacts == nullptr ? BENDY_OK : check_finite(std::span(contacts, 12), "contacts", error))
+                contacts == nullptr ? BENDY_OK : check_finite(std::span(contacts, 14), "contacts", error))
             return status;
         if (const bendy_status status = check_finite(seconds, "seconds", error)) return status;
         if (const bendy_status status = result == nullptr ? BENDY_OK : check_out(result, "result", error))

@@ -21,7 +21,7 @@ class Retargeted(c.Retargeted):
     None. missed: metres, most that a hand or foot is away from where it was to be; missed_joint: as turned_joint. lowered: metres, by
     how much the hips were lowered so that the feet reach the ground. contacts: how firmly left heel, left toes, right heel and right
     toes stand, the same of an animal's front feet, a human's left hand and right hand, and its body, if it sits, lies or kneels: 0 in the
-    air to 1 on the ground; and whether its hands are near each other, as on one sword.
+    air to 1 on the ground; whether its hands are near each other, as on one sword; and whether left and right hand touch its own body.
     """
 
     def __repr__(self) -> str:
@@ -64,10 +64,10 @@ class Retarget:
         the source's. What a constraint holds back, the joints below make up for as far as theirs allow. Feet and hands on the
         ground are then brought to their places by IK, and the body of who sits, lies or kneels to its height.
 
-        state: the character's own. contacts: (12,), as in Retargeted; None: found by heights above the ground. seconds: since the last
+        state: the character's own. contacts: (14,), as in Retargeted; None: found by heights above the ground. seconds: since the last
         call with this state, 0 to 1: joints that would jump where the source does not turn quickly, but do not jump; 0: they may. Raises
         ValueError; if a number is not finite, the pose is then at rest."""
-        given = None if contacts is None else floats(contacts, (12,), "contacts")
+        given = None if contacts is None else floats(contacts, (14,), "contacts")
         return c.retarget_pose(pose._handle, self._handle, source._handle, state._handle, given, seconds, Retargeted())
 
     @property

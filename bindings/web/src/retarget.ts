@@ -49,8 +49,8 @@ export class Retarget extends MadeRetarget {
    * source's. Feet and hands on the ground are brought to their places by IK, and the body of who sits, lies or kneels to its height.
    * `state` is the character's own. `contacts` says how firmly left heel, left toes, right heel and right toes stand, then the same of an
    * animal's front feet, of a human's left and right hand, and its body, from 0 in the air to 1, then whether its hands are near each
-   * other, as on one sword; if not given, they are found by heights
-   * above the ground. `seconds` since the last call with this state, 0 to 1: joints that would jump where the source does not turn
+   * other, as on one sword, and whether left and right hand touch its own body; if not given, they are found by heights above the ground
+   * and by the skin. `seconds` since the last call with this state, 0 to 1: joints that would jump where the source does not turn
    * quickly, but do not jump; 0: they may. Throws BAD_ARGUMENT, and for numbers that are not finite the pose is then at rest.
    */
   apply(pose: Pose, source: Pose, state: RetargetState, contacts?: ArrayLike<number>, seconds = 0): Retargeted {

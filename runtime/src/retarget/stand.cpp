@@ -1,5 +1,6 @@
 #include "stand.h"
 
+#include "math/smooth.h"
 #include "pose/pose_state.h"
 
 #include <glm/geometric.hpp>
@@ -54,8 +55,7 @@ private:
 }  // namespace
 
 float eased(double number, double low, double high) {
-    const double share = std::clamp((high - number) / (high - low), 0.0, 1.0);
-    return static_cast<float>(share * share * (3.0 - 2.0 * share));
+    return static_cast<float>(smooth(number, high, low));
 }
 
 FootContact find_contact(const RetargetPlan& plan, const FootPlan& foot, PoseState& source, float last_toes) {

@@ -15,16 +15,12 @@ namespace bendy {
 namespace {
 
 constexpr double kBall = 0.12, kLimbBall = 0.06;  // leg lengths: how thick a body without a skin is
+constexpr double kFingerBall = 0.02;              // the same of the joints of its hands
 constexpr double kBelowHips = 0.25;               // leg lengths: where the trunk of who stands ends
 constexpr double kBelowKnee = 0.08;               // leg lengths: where a knee ends
 constexpr double kLoose = 1.7;                    // of the mean distance from a thigh's bone: a skirt
+constexpr std::size_t kHead = 0, kChest = 1, kBelly = 2, kThighs = 3, kNoShell = 5;  // of Surface::shells
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-/// To the sides, edges and corners of a cube; the one in the middle is nowhere.
-constexpr int kDirections = 27;
-glm::dvec3 direction(int number) {
-    return {number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1};
-}
 
 /// A joint whose vertices are looked at: those of which it has the largest weight, or one of some joints below it.
 struct SkinBone {
@@ -34,6 +30,7 @@ struct SkinBone {
     std::uint32_t end = kNone;  ///< if only vertices near to the bone from the joint to that count
     bool is_trunk = false;
     double least_below = -kInfinite;  ///< metres: the same as `least`, of the joints below it
+    std::size_t shell = kNoShell;     ///< of Surface::shells; kChest for all of the trunk
 };
 
 struct SkinVertex {
@@ -54,11 +51,14 @@ public:
         finish(surface_.arms);
         for (SurfacePart& end : surface_.ends) finish(end);
         find_floor();
+        finish_shells();
         return std::move(surface_);
     }
 
 private:
     void list_bones() {
+        const glm::dvec3 top = body_.top() == kNone ? body_.hips() : body_.place(body_.top());
+        waist_ = 0.5 * height_of(body_.hips() + top);
         const double least = height_of(body_.hips()) - kBelowHips * body_.lengths().front();
         bone_of_.assign(model_.joints().size(), kNone);
         for (const std::uint32_t joint :
@@ -66,8 +66,13 @@ private:
                            Role::right_shoulder, Role::neck, Role::head})) {
             list({joint, &surface_.body, least, kNone, true, height_of(body_.place(joint))});
         }
+        for (const std::uint32_t joint : body_.joints({Role::hips, Role::spine, Role::chest, Role::upper_chest}))
+            bones_[bone_of_[joint]].shell = kChest;
         const std::uint32_t head = body_.joint(Role::head);
-        if (head != kNone) list_below(head, true);
+        if (head != kNone) {
+            bones_[bone_of_[head]].shell = kHead;
+            list_below(head, true);
+        }
         for (std::size_t k = 0; k < body_.limbs().size(); ++k) list_limb(body_.limbs()[k], surface_.ends.at(k));
     }
 
@@ -82,6 +87,7 @@ private:
         const double least = limb.is_leg ? knee : -kInfinite;
         SurfacePart& part = limb.is_leg ? surface_.body : surface_.arms;
         list({limb.joints[0], &part, least, limb.is_leg ? limb.joints[1] : kNone});
+        if (limb.is_leg) bones_.back().shell = kThighs + (&limb == &body_.limbs()[1] ? 1 : 0);
         list({limb.joints[1], &part, least});
         list({limb.foot_joint(), &end});
         list_below(limb.foot_joint(), limb.is_leg);
@@ -162,14 +168,20 @@ private:
         for (const SkinVertex& vertex : vertices_) {
             const bool is_here = vertex.bone == &bone && height_of(vertex.rest) >= bone.least;
             if (!is_here || distance_from(bone, vertex.rest) * count > kLoose * sum) continue;
-            for (int k = 0; k < kDirections; ++k) {
-                const SkinVertex*& most = farthest.at(static_cast<std::size_t>(k));
+            if (bone.shell != kNoShell) take_into_shell(bone.shell, vertex.rest);
+            for (std::size_t k = 0; k < kDirections; ++k) {
+                const SkinVertex*& most = farthest.at(k);
                 if (most == nullptr || glm::dot(vertex.rest - most->rest, direction(k)) > 0.0) most = &vertex;
             }
         }
         for (auto one = farthest.begin(); one != farthest.end(); ++one) {
             if (*one != nullptr && std::find(farthest.begin(), one, *one) == one) take_vertex(**one, *bone.part);
         }
+    }
+
+    void take_into_shell(std::size_t shell, const glm::dvec3& place) {
+        const bool is_belly = shell == kChest && height_of(place) < waist_;
+        surface_.shells.at(is_belly ? kBelly : shell).take(glm::conjugate(body_.axes()) * place);
     }
 
     void take_vertex(const SkinVertex& vertex, SurfacePart& part) {
@@ -181,13 +193,30 @@ private:
         }
     }
 
-    void take_ball(const SkinBone& bone) const {
-        bone.part->shares.push_back({bone.joint, static_cast<std::uint32_t>(bone.part->radii.size())});
-        bone.part->radii.push_back((bone.is_trunk ? kBall : kLimbBall) * body_.lengths().front());
+    void take_ball(const SkinBone& bone) {
+        add_ball(*bone.part, bone.joint, bone.is_trunk ? kBall : kLimbBall);
+        for (std::uint32_t joint = bone.joint + 1; joint < bone_of_.size() && !bone.is_trunk; ++joint) {
+            if (bone_of_[joint] == bone_of_[bone.joint]) add_ball(*bone.part, joint, kFingerBall);
+        }
+        if (bone.shell == kNoShell) return;
+        const double radius = (bone.is_trunk ? kBall : kLimbBall) * body_.lengths().front();
+        glm::dvec3 middle = body_.place(bone.joint);
+        if (bone.shell == kHead) middle += radius * body_.up();  // the joint is where the neck ends
+        for (std::size_t k = 0; k < kDirections; ++k) {
+            const double length = glm::length(direction(k));
+            if (length > 0.0) take_into_shell(bone.shell, middle + body_.axes() * (direction(k) * (radius / length)));
+        }
+        if (bone.end != kNone) take_into_shell(bone.shell, body_.place(bone.end));
+    }
+
+    void add_ball(SurfacePart& part, std::uint32_t joint, double radius) const {
+        part.shares.push_back({joint, static_cast<std::uint32_t>(part.radii.size())});
+        part.radii.push_back(radius * body_.lengths().front());
     }
 
     void finish(SurfacePart& part) const {
         part.heights.resize(part.radii.size());
+        part.points.resize(part.radii.size());
         const std::vector<SurfacePart::Share> shares = std::move(part.shares);
         part.shares.clear();
         for (std::uint32_t joint = 0; joint < model_.joints().size(); ++joint) {
@@ -195,6 +224,23 @@ private:
                 if (share.joint == joint) part.shares.push_back(share);
             }
         }
+    }
+
+    void finish_shells() {
+        const auto trunk = body_.joints({Role::spine, Role::chest, Role::upper_chest});
+        set_joint(kHead, body_.joint(Role::head));
+        set_joint(kChest, trunk.empty() ? kNone : trunk.back());
+        set_joint(kBelly, body_.joint(Role::hips));
+        for (std::size_t leg = 0; leg < 2; ++leg) set_joint(kThighs + leg, body_.limbs()[leg].upper());
+    }
+
+    void set_joint(std::size_t number, std::uint32_t joint) {
+        Shell& shell = surface_.shells.at(number);
+        if (joint == kNone || !shell.finish()) return;
+        const glm::dmat4 axes = glm::mat4_cast(glm::conjugate(body_.axes()));
+        shell.to_body = axes * body_.rest(joint);
+        shell.from_body = glm::inverse(shell.to_body);
+        shell.joint = joint;
     }
 
     /// Soles may be below the joints of the feet.
@@ -209,6 +255,7 @@ private:
 
     const Body& body_;
     const Model& model_;
+    double waist_ = 0.0;  // metres along up: between belly and chest
     Surface surface_;
     std::vector<SkinBone> bones_;
     std::vector<std::uint32_t> bone_of_;  // by joint
@@ -220,6 +267,13 @@ private:
 
 Surface find_surface(const Body& body) {
     return SurfaceFinder(body).find();
+}
+
+std::span<const glm::dvec3> SurfacePart::places(PoseState& pose) {
+    points.assign(radii.size(), glm::dvec3(0.0));
+    for (const Share& share : shares)
+        points[share.point] += share.weight * glm::dvec3(pose.fresh_matrix(share.joint) * glm::dvec4(share.place, 1.0));
+    return points;
 }
 
 double SurfacePart::lowest(PoseState& pose, const glm::dvec3& up) {

@@ -76,6 +76,8 @@ inline constexpr const char* kContactNames[kContacts] = {"left_heel_contact",
                                                          "left_hand_contact",
                                                          "right_hand_contact",
                                                          "body_contact",
-                                                         "hands_contact"};
+                                                         "hands_contact",
+                                                         "left_hand_body_contact",
+                                                         "right_hand_body_contact"};
 
 }  // namespace bendy::motion

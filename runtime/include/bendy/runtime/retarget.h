@@ -51,8 +51,8 @@ struct RetargetOptions {
     RestPoses rest_poses = RestPoses::measured;
     Limits limits = Limits::soft;
     /// Moves feet and hands, while they touch the ground, as far as the source's move, times the length of the legs,
-    /// and keeps body, feet and hands from sinking into it, and hands together that are near each other. Has no effect
-    /// on limbs with joints between their three that have no IK chain.
+    /// and keeps body, feet and hands from sinking into it, hands together that are near each other, and hands on the
+    /// own body. Has no effect on limbs with joints between their three that have no IK chain.
     bool plants_feet = true;
 };
 
@@ -80,7 +80,8 @@ std::string error_text(const RetargetError& error);
 
 /// Contacts. Each foot has two points that may touch the ground; those of an animal's hind legs have the names of a
 /// human's, and the heel is where the paw or the hoof begins. A human's hands may touch it too, and so may its body
-/// (head, trunk, thighs or knees) when it sits, lies or kneels. Hands close together, as on one sword, also count.
+/// (head, trunk, thighs or knees) when it sits, lies or kneels. Hands close together, as on one sword, also count, and a
+/// hand on the own head, trunk or thighs.
 enum class Contact : std::uint8_t {
     left_heel,
     left_toes,
@@ -94,8 +95,10 @@ enum class Contact : std::uint8_t {
     right_hand,
     body,
     hands,
+    left_hand_body,
+    right_hand_body,
 };
-inline constexpr std::size_t kContacts = 12;
+inline constexpr std::size_t kContacts = 14;
 /// How firm each contact is: 0 none (a foot in the air), 1 full (on the ground).
 using ContactWeights = std::array<float, kContacts>;
 

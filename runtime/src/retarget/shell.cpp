@@ -1,0 +1,45 @@
+#include "shell.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace bendy {
+
+glm::dvec3 direction(std::size_t number) {
+    const auto k = static_cast<int>(number);
+    return {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+}
+
+void Shell::take(const glm::dvec3& place) {
+    for (std::size_t k = 0; k < kDirections; ++k) {
+        const double here = glm::dot(place, direction(k));
+        reach[k] = is_empty_ ? here : std::max(reach[k], here);
+    }
+    is_empty_ = false;
+}
+
+bool Shell::finish() {
+    constexpr double kLeast = 1e-6;  // metres
+    constexpr std::array<std::size_t, 3> kAhead{14, 16, 22}, kBack{12, 10, 4};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double ahead = reach[kAhead[static_cast<std::size_t>(axis)]];
+        const double back = reach[kBack[static_cast<std::size_t>(axis)]];
+        middle[axis] = 0.5 * (ahead - back);
+        half[axis] = 0.5 * (ahead + back);
+    }
+    for (std::size_t k = 0; k < kDirections; ++k) reach[k] -= glm::dot(middle, direction(k));
+    return half.x > kLeast && half.y > kLeast && half.z > kLeast;
+}
+
+double Shell::radius(const glm::dvec3& way) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < kDirections; ++k) {
+        const double along = glm::dot(way, direction(k));
+        if (along > 0.0) least = std::min(least, std::max(reach[k], 0.0) / along);
+    }
+    return least;
+}
+
+}  // namespace bendy

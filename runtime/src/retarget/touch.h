@@ -1,0 +1,15 @@
+#pragma once
+
+#include "plant_contacts.h"
+#include "settled_frame.h"
+
+namespace bendy {
+
+/// Hands that touch the own head, trunk or thighs in the source are to touch the target's there, which may be thicker.
+void touch_body(SettledFrame& frame, const GivenContacts& given);
+
+/// Hands that are near each other are to be as near on the target, in arm lengths, although its shoulders may be
+/// broader.
+void join_hands(SettledFrame& frame, const GivenContacts& given);
+
+}  // namespace bendy
