@@ -22,12 +22,12 @@ void Shell::take(const glm::dvec3& place) {
 
 bool Shell::finish() {
     constexpr double kLeast = 1e-6;  // metres
-    constexpr std::array<std::size_t, 3> kAhead{14, 16, 22}, kBack{12, 10, 4};
+    constexpr std::array<std::size_t, 3> kPlus{14, 16, 22}, kMinus{12, 10, 4};
     for (int axis = 0; axis < 3; ++axis) {
-        const double ahead = reach[kAhead[static_cast<std::size_t>(axis)]];
-        const double back = reach[kBack[static_cast<std::size_t>(axis)]];
-        middle[axis] = 0.5 * (ahead - back);
-        half[axis] = 0.5 * (ahead + back);
+        const double plus = reach[kPlus[static_cast<std::size_t>(axis)]];
+        const double minus = reach[kMinus[static_cast<std::size_t>(axis)]];
+        middle[axis] = 0.5 * (plus - minus);
+        half[axis] = 0.5 * (plus + minus);
     }
     for (std::size_t k = 0; k < kDirections; ++k) reach[k] -= glm::dot(middle, direction(k));
     return half.x > kLeast && half.y > kLeast && half.z > kLeast;
