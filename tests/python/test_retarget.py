@@ -21,12 +21,12 @@ def test_a_pose_on_a_model_of_the_same_build_is_the_same_to_the_last_bit(model, 
     assert retarget.morph_targets == list(range(model.morph_targets))
     source, pose, state = model.sample("Walk", 0.3), target.pose(), bendy.RetargetState()
     result = retarget.apply(pose, source, state)
-    assert len(result.contacts) == 12 and max(result.contacts) > 0.5
+    assert len(result.contacts) == 14 and max(result.contacts) > 0.5
     assert result.turned == 0.0 and result.turned_joint is None
     assert "missed" in repr(result)
     for name in ("rotations", "translations", "scales", "morph_weights"):
         assert numpy.array_equal(getattr(pose, name), getattr(source, name)), name
-    assert retarget.apply(pose, source, state.reset(), contacts=[1, 1, 0, 0.25] + 8 * [0]).contacts == (1, 1, 0, 0.25) + 8 * (0,)
+    assert retarget.apply(pose, source, state.reset(), contacts=[1, 1, 0, 0.25] + 10 * [0]).contacts == (1, 1, 0, 0.25) + 10 * (0,)
     model.close()
     target.close()
     retarget.apply(pose, source, state)
