@@ -50,20 +50,29 @@ ROOMS = {
         "optimise/collapse": {"scene", "optimise/passes"},
         "optimise/compact": {"scene", "scene/source", "optimise", "optimise/passes"},
         "optimise/compare": {"scene", "optimise", "optimise/collapse"},
-        "scene/bendy_file": {"scene", "scene/source", "rigging/rig", "optimise/passes"},
-        "scene/gltf": {"scene", "scene/source", "rigging/rig"},
-        "scene/gltf_out": {"scene", "scene/source", "rigging/rig", "rigging/humanoid", "optimise", "optimise/passes", "scene/gltf"},
-        "scene/x": {"scene", "scene/source", "rigging/rig"},
-        "scene/x_out": {"scene", "scene/source", "rigging/humanoid", "optimise/passes", "scene/x"},
-        "scene/md2": {"scene", "scene/source"},
-        "scene/bvh": {"scene", "scene/source"},
-        "scene/convert": {"scene", "scene/source", "rigging/rig", "rigging/humanoid", "optimise/passes", "optimise/collapse", "optimise/compact"},
+        "formats/bendy_file": {"scene", "scene/source", "rigging/rig", "optimise/passes"},
+        "formats/gltf": {"scene", "scene/source", "rigging/rig"},
+        "formats/gltf_out": {"scene", "scene/source", "rigging/rig", "rigging/humanoid", "optimise", "optimise/passes", "formats/gltf"},
+        "formats/x": {"scene", "scene/source", "rigging/rig"},
+        "formats/x_out": {"scene", "scene/source", "rigging/humanoid", "optimise/passes", "formats/x"},
+        "formats/md2": {"scene", "scene/source"},
+        "formats/bvh": {"scene", "scene/source"},
+        "convert": {"scene", "scene/source", "rigging/rig", "rigging/humanoid", "optimise", "optimise/passes", "optimise/collapse",
+                    "optimise/compact"},
     },
+}
+# The floors of the converter, from the ground up, each with the public headers that it fills: nothing includes a floor above its own.
+FLOORS = {
+    "scene": {"report.h", "scene.h", "source_format.h"},
+    "rigging": {"write_rig.h"},
+    "optimise": {"compare_characters.h", "error_bound.h"},
+    "formats": {"export.h", "import.h"},
+    "convert": {"build_chunks.h", "convert.h"},
 }
 # header: the folders that may include it
 PRIVATE = {
-    "tiny_gltf.h": "converter/src/scene/gltf/",
-    "zlib.h": "converter/src/scene/x/",
+    "tiny_gltf.h": "converter/src/formats/gltf/",
+    "zlib.h": "converter/src/formats/x/",
     "meshoptimizer.h": ("converter/src/", "format/src/"),
     "draco/": "converter/src/",
     "nlohmann/": ("format/json/src/", "tools/cli/files/"),
@@ -80,6 +89,17 @@ PRIVATE = {
 }
 # What format and runtime may take from outside: the C++ library and the system have no folder in their names.
 EMBEDDABLE_MAY_USE = ("bendy/", "glm/", "sys/")
+
+
+def floor_of(path: str):
+    """The number and name of a floor of the converter, from the path of a file or what an #include says; None for other paths."""
+    path = path.removeprefix("converter/src/")
+    folder, _, header = path.rpartition("/")
+    is_public = folder.removeprefix("converter/include/") == "bendy/converter"
+    for number, (floor, public) in enumerate(FLOORS.items()):
+        if (header in public) if is_public else path.startswith(f"{floor}/"):
+            return number, floor
+    return None
 
 
 def faults_of(source: Path):
@@ -106,6 +126,10 @@ def faults_of(source: Path):
                 used = FOLDER_OF.get(project.group(1)) if project else None
                 if project and used != folder and used not in allowed:
                     faults.append(f"{place}: {folder} may not use {project.group(1)}")
+                own_floor = floor_of(name) if folder == "converter" else None
+                floor = floor_of(header) if own_floor else None
+                if floor and floor > own_floor:
+                    faults.append(f"{place}: {own_floor[1]} is below {floor[1]}")
                 room = header.rpartition("/")[0]
                 rooms = ROOMS.get(folder, {})
                 if room in rooms and name.startswith(f"{folder}/src/"):

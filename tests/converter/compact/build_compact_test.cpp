@@ -1,4 +1,4 @@
-#include "optimise/compact/build_compact.h"
+#include "convert/build_compact.h"
 
 #include "converter/posed_scene.h"
 #include "scene/evaluate.h"

@@ -1,6 +1,6 @@
 #include "optimise/compact/pack_curve.h"
 
-#include "optimise/compact/build_compact.h"
+#include "convert/build_compact.h"
 #include "optimise/compare/compare_curves.h"
 #include "optimise/passes/merge_clips.h"
 

@@ -1,6 +1,6 @@
 #include "build_gltf.h"
 
-#include "scene/gltf/meshopt.h"
+#include "formats/gltf/meshopt.h"
 
 #include <meshoptimizer.h>
 

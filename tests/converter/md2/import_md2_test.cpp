@@ -1,4 +1,4 @@
-#include "scene/md2/quake2.h"
+#include "formats/md2/quake2.h"
 
 #include <bendy/converter/build_chunks.h>
 #include <bendy/converter/import.h>

@@ -1,5 +1,6 @@
-#include "scene/source/importers.h"
-#include "scene/gltf/further_members.h"
+#include "convert/importers.h"
+#include "formats/gltf/further_members.h"
+#include "scene/source/readable_formats.h"
 
 #include <bendy/converter/source_format.h>
 
@@ -18,27 +19,27 @@ Bytes bytes_of(std::string_view text) {
 
 TEST(Importers, AreFoundByTheirSignatures) {
     std::set<std::string_view> seen;
-    for (const Importer& importer : importers()) {
-        if (importer.signature.empty()) continue;
-        EXPECT_TRUE(seen.insert(importer.signature).second) << importer.name;
-        const std::string text = std::string(importer.signature) + " and more";
+    for (const ReadableFormat& row : readable_formats()) {
+        if (row.signature.empty()) continue;
+        EXPECT_TRUE(seen.insert(row.signature).second) << row.name;
+        const std::string text = std::string(row.signature) + " and more";
         const auto kind = find_file_kind(bytes_of(text), "file.without.meaning");
-        ASSERT_TRUE(kind) << importer.name;
-        EXPECT_EQ(kind->name, importer.name);
-        EXPECT_EQ(kind->format, importer.format);
+        ASSERT_TRUE(kind) << row.name;
+        EXPECT_EQ(kind->name, row.name);
+        EXPECT_EQ(kind->format, row.format);
     }
     EXPECT_GE(seen.size(), 4u);
 }
 
 TEST(Importers, AreFoundByTheirSuffixesWhereTheContentSaysNothing) {
     std::set<std::string_view> seen;
-    for (const Importer& importer : importers()) {
-        for (const std::string_view suffix : importer.suffixes) {
+    for (const ReadableFormat& row : readable_formats()) {
+        for (const std::string_view suffix : row.suffixes) {
             if (suffix.empty()) continue;
             EXPECT_TRUE(seen.insert(suffix).second) << suffix;
-            const bool is_bendy = importer.format == SourceFormat::bendy;  // whose content always tells
+            const bool is_bendy = row.format == SourceFormat::bendy;  // whose content always tells
             EXPECT_EQ(find_source_format(bytes_of("nothing known"), "fox" + std::string(suffix)),
-                      is_bendy ? SourceFormat::gltf : importer.format)
+                      is_bendy ? SourceFormat::gltf : row.format)
                 << suffix;
             EXPECT_EQ(has_readable_suffix("fox" + std::string(suffix)), !is_bendy) << suffix;
         }
@@ -120,9 +121,10 @@ TEST(Importers, SuggestedCommandsNameAFileAndNothingElse) {
 }
 
 TEST(Importers, EveryFormatHasOne) {
-    for (const SourceFormat format :
-         {SourceFormat::gltf, SourceFormat::bendy, SourceFormat::x, SourceFormat::md2, SourceFormat::bvh})
-        EXPECT_EQ(importer_of(format).format, format);
+    std::set<SourceFormat> formats;
+    for (const ReadableFormat& row : readable_formats()) formats.insert(row.format);
+    EXPECT_EQ(formats.size(), 5u);
+    for (const SourceFormat format : formats) EXPECT_EQ(importer_of(format).format, format);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "scene/x/conventions.h"
+#include "formats/x/conventions.h"
 
 #include <gtest/gtest.h>
 

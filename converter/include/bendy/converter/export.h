@@ -1,8 +1,8 @@
 #pragma once
 
 #include <bendy/converter/report.h>
+#include <bendy/converter/write_rig.h>
 #include <bendy/format/byte_reader.h>
-#include <bendy/format/document.h>
 #include <bendy/format/result.h>
 
 #include <cstddef>
@@ -62,12 +62,5 @@ Result<XAsset, ImportError> export_x(const std::filesystem::path& bendy_file, co
 /// As above, from memory; `bytes` must be 16-byte aligned.
 Result<XAsset, ImportError> export_x(Bytes bytes, const std::string& image_stem, Report& report,
                                      const ExportOptions& options = {});
-
-/// The constraints and chains of an object, the roles of its joints, and the markers and curves of its clips, as a rig
-/// file (spec/rig.md), marked "complete": convert --rig turns it into the same records, bit for bit. Only ranges that
-/// the constraint's model does not use are left out.
-/// \param object        passes check_values
-/// \param with_markers  also write roles, markers and curves
-std::string write_rig(const ObjectView& object, bool with_markers = true);
 
 }  // namespace bendy::converter

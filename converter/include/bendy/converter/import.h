@@ -83,13 +83,6 @@ Result<Scene, ImportError> import_md2(const std::filesystem::path& file, const M
 Result<Scene, ImportError> import_md2(std::span<const std::byte> bytes, const std::filesystem::path& file,
                                       const Md2Options& options, Report& report);
 
-/// The axis that is up in a Biovision file, which does not say it.
-enum class SourceUp : std::uint8_t {
-    found,  ///< Z if the body stands along Z in its clips, otherwise Y
-    y,
-    z,
-};
-
 struct BvhOptions {
     /// Length of the file's unit, metres, above 0. 0: a centimetre, with a note in the report: files do not say it.
     double unit = 0.0;

@@ -20,6 +20,13 @@ namespace bendy::converter {
 
 using bendy::kNone;
 
+/// The axis that is up in a Biovision file, which does not say it.
+enum class SourceUp : std::uint8_t {
+    found,  ///< Z if the body stands along Z in its clips, otherwise Y
+    y,
+    z,
+};
+
 /// Transform of a joint relative to its parent: M = T * R * U with U upper triangular,
 ///     U = | scale.x  shear.x  shear.y |
 ///         |    0     scale.y  shear.z |

@@ -3,7 +3,6 @@
 #include "humanoid.h"
 #include "scene/rest_frames.h"
 
-#include <bendy/converter/import.h>
 #include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>
 

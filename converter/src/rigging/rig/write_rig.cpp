@@ -1,4 +1,4 @@
-#include <bendy/converter/export.h>
+#include <bendy/converter/write_rig.h>
 
 #include "clips.h"
 #include "joint_key.h"

@@ -1,4 +1,4 @@
-#include "optimise/compact/build_compact.h"
+#include "convert/build_compact.h"
 
 #include "optimise/compact/compact_geometry.h"
 #include "optimise/compact/pack_clips.h"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scene/gltf_out/buffer.h"
-#include "scene/gltf_out/parts.h"
+#include "formats/gltf_out/buffer.h"
+#include "formats/gltf_out/parts.h"
 
 #include <bendy/converter/report.h>
 #include <bendy/converter/scene.h>

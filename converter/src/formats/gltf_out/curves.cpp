@@ -1,4 +1,4 @@
-#include "scene/gltf_out/curves.h"
+#include "formats/gltf_out/curves.h"
 
 #include "scene/curve_property.h"
 #include "scene/failure.h"

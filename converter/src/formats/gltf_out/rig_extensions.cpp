@@ -1,7 +1,7 @@
+#include "formats/gltf/extensions.h"
+#include "formats/gltf_out/parts.h"
 #include "rigging/rig/record_lines.h"
 #include "scene/failure.h"
-#include "scene/gltf/extensions.h"
-#include "scene/gltf_out/parts.h"
 
 #include <cstddef>
 #include <string>

@@ -1,9 +1,9 @@
 #include <bendy/converter/build_chunks.h>
 #include <bendy/format/charconv.h>
 
+#include "convert/build_meshes.h"
 #include "optimise/compact/pack_curve.h"
 #include "optimise/passes/mesh_order.h"
-#include "scene/convert/build_meshes.h"
 #include "scene/frame_shapes.h"
 #include "scene/rest_frames.h"
 #include "scene/space.h"

@@ -1,7 +1,8 @@
 #include <bendy/converter/convert.h>
 
+#include "convert/build_compact.h"
+#include "convert/importers.h"
 #include "optimise/collapse/collapse_vertices.h"
-#include "optimise/compact/build_compact.h"
 #include "optimise/passes/auto_skin.h"
 #include "optimise/passes/bone_order.h"
 #include "optimise/passes/drop_unused.h"
@@ -13,7 +14,6 @@
 #include "rigging/rig/parse_rig.h"
 #include "scene/failure.h"
 #include "scene/progress.h"
-#include "scene/source/importers.h"
 #include "scene/source/source_file.h"
 #ifdef BENDY_AUTO_RIG
 #include "rigging/humanoid/auto_rig.h"

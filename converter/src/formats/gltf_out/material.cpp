@@ -1,5 +1,5 @@
+#include "formats/gltf_out/parts.h"
 #include "scene/failure.h"
-#include "scene/gltf_out/parts.h"
 
 #include <glm/gtc/type_ptr.hpp>
 

@@ -1,4 +1,4 @@
-#include "scene/gltf_out/buffer.h"
+#include "formats/gltf_out/buffer.h"
 
 #include "scene/stored_numbers.h"
 

@@ -1,8 +1,8 @@
+#include "formats/x/conventions.h"
+#include "formats/x/parts.h"
 #include "parts.h"
 #include "scene/failure.h"
 #include "scene/source/image_bytes.h"
-#include "scene/x/conventions.h"
-#include "scene/x/parts.h"
 
 #include <algorithm>
 #include <array>

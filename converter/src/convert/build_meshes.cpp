@@ -1,4 +1,4 @@
-#include "scene/convert/build_meshes.h"
+#include "convert/build_meshes.h"
 
 #include "scene/stored_numbers.h"
 

@@ -1,5 +1,5 @@
+#include "formats/bendy_file/mesh.h"
 #include "rigging/rig/clips.h"
-#include "scene/bendy_file/mesh.h"
 #include "scene/failure.h"
 #include "scene/frame_shapes.h"
 

@@ -1,6 +1,6 @@
+#include "formats/x/conventions.h"
 #include "parts.h"
 #include "scene/failure.h"
-#include "scene/x/conventions.h"
 
 #include <glm/gtc/type_ptr.hpp>
 

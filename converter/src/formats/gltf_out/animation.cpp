@@ -1,7 +1,7 @@
+#include "formats/gltf_out/parts.h"
 #include "optimise/measure_error.h"
 #include "scene/failure.h"
 #include "scene/frame_shapes.h"
-#include "scene/gltf_out/parts.h"
 
 #include <bendy/format/charconv.h>
 

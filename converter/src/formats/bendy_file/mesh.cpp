@@ -1,4 +1,4 @@
-#include "scene/bendy_file/mesh.h"
+#include "formats/bendy_file/mesh.h"
 
 #include "optimise/passes/mesh_order.h"
 

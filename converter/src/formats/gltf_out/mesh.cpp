@@ -1,6 +1,6 @@
+#include "formats/gltf_out/parts.h"
 #include "scene/failure.h"
 #include "scene/frame_shapes.h"
-#include "scene/gltf_out/parts.h"
 #include "scene/source/normalise.h"
 
 #include <glm/geometric.hpp>

@@ -1,3 +1,5 @@
+#include "formats/x/conventions.h"
+#include "formats/x/rig_fields.h"
 #include "optimise/passes/mesh_order.h"
 #include "parts.h"
 #include "rigging/humanoid/find_roles.h"
@@ -5,8 +7,6 @@
 #include "scene/source/normalise.h"
 #include "scene/source/source_file.h"
 #include "scene/space.h"
-#include "scene/x/conventions.h"
-#include "scene/x/rig_fields.h"
 
 #include <bendy/converter/export.h>
 #include <bendy/converter/import.h>

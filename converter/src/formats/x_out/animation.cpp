@@ -1,8 +1,8 @@
+#include "formats/x/conventions.h"
 #include "parts.h"
 #include "scene/evaluate.h"
 #include "scene/failure.h"
 #include "scene/frame_shapes.h"
-#include "scene/x/conventions.h"
 
 #include <bendy/converter/scene.h>
 

@@ -1,6 +1,6 @@
 #include "parts.h"
 
-#include "scene/x/conventions.h"
+#include "formats/x/conventions.h"
 
 #include <bendy/format/charconv.h>
 

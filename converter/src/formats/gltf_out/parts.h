@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scene/gltf/further_members.h"
-#include "scene/gltf_out/buffer.h"
+#include "formats/gltf/further_members.h"
+#include "formats/gltf_out/buffer.h"
 #include "scene/json_text.h"
 
 #include <bendy/converter/report.h>

@@ -1,7 +1,7 @@
+#include "formats/gltf/extensions.h"
+#include "formats/gltf_out/buffer.h"
+#include "formats/gltf_out/parts.h"
 #include "scene/failure.h"
-#include "scene/gltf/extensions.h"
-#include "scene/gltf_out/buffer.h"
-#include "scene/gltf_out/parts.h"
 #include "scene/space.h"
 
 #include <bendy/format/charconv.h>

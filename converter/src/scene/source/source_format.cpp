@@ -1,12 +1,9 @@
-#include "scene/source/importers.h"
+#include <bendy/converter/source_format.h>
 
 #include "scene/source/image_bytes.h"
-
-#include <bendy/converter/import.h>
-#include <bendy/format/byte_reader.h>
+#include "scene/source/readable_formats.h"
 
 #include <algorithm>
-#include <cassert>
 #include <fstream>
 #include <set>
 #include <string>
@@ -16,92 +13,25 @@
 namespace bendy::converter {
 namespace {
 
-using Buffer = std::vector<std::byte>;
-using Path = std::filesystem::path;
-using Imported = Result<Scene, ImportError>;
-
-Imported from_gltf(Buffer bytes, const Path& file, const ConvertOptions& options, Report& report) {
-    return import_gltf(std::move(bytes), file, options.gltf, report);
-}
-
-Imported from_bendy(Buffer bytes, const Path& /*file*/, const ConvertOptions& /*options*/, Report& report) {
-    return import_bendy(Bytes(bytes), report);
-}
-
+constexpr std::array kReadable{
+    ReadableFormat{SourceFormat::gltf, "a glTF file", {}, {".gltf"}},
+    ReadableFormat{SourceFormat::gltf, "a glTF binary file", "glTF", {".glb", ".vrm", ".vrma"}},
 #ifdef BENDY_X_FILES
-Imported from_x(Buffer bytes, const Path& file, const ConvertOptions& options, Report& report) {
-    return import_x(as_text(bytes), file, {options.gltf.embed_images, options.gltf.root, options.ticks_per_second},
-                    report);
-}
-#endif
-
-#ifdef BENDY_MD2
-Imported from_md2(Buffer bytes, const Path& file, const ConvertOptions& options, Report& report) {
-    return import_md2(bytes, file, {options.gltf.embed_images, options.gltf.root, options.texture}, report);
-}
-#endif
-
-#ifdef BENDY_BVH
-Imported from_bvh(Buffer bytes, const Path& file, const ConvertOptions& options, Report& report) {
-    return import_bvh(as_text(bytes), file, {options.unit}, report);
-}
-#endif
-
-constexpr std::array kImporters{
-    Importer{.format = SourceFormat::gltf,
-             .name = "a glTF file",
-             .signature = {},
-             .suffixes = {".gltf"},
-             .takes_scene = true,
-             .import = from_gltf},
-    Importer{.format = SourceFormat::gltf,
-             .name = "a glTF binary file",
-             .signature = "glTF",
-             .suffixes = {".glb", ".vrm", ".vrma"},
-             .takes_scene = true,
-             .import = from_gltf},
-#ifdef BENDY_X_FILES
-    Importer{.format = SourceFormat::x,
-             .name = "a DirectX X-file",
-             .signature = "xof ",
-             .suffixes = {".x"},
-             .takes_ticks = true,
-             .import = from_x},
+    ReadableFormat{SourceFormat::x, "a DirectX X-file", "xof ", {".x"}},
 #endif
 #ifdef BENDY_MD2
-    Importer{.format = SourceFormat::md2,
-             .name = "a Quake II model",
-             .signature = "IDP2",
-             .suffixes = {".md2"},
-             .takes_texture = true,
-             .import = from_md2},
+    ReadableFormat{SourceFormat::md2, "a Quake II model", "IDP2", {".md2"}},
 #endif
 #ifdef BENDY_BVH
-    Importer{.format = SourceFormat::bvh,
-             .name = "a BVH file",
-             .signature = "HIERARCHY",
-             .suffixes = {".bvh"},
-             .takes_unit = true,
-             .import = from_bvh},
+    ReadableFormat{SourceFormat::bvh, "a BVH file", "HIERARCHY", {".bvh"}},
 #endif
-    Importer{.format = SourceFormat::bendy,
-             .name = "a bendy file",
-             .signature = "HEAD",
-             .suffixes = {".bendy"},
-             .import = from_bendy},
+    ReadableFormat{SourceFormat::bendy, "a bendy file", "HEAD", {".bendy"}},
 };
 
 }  // namespace
 
-std::span<const Importer> importers() {
-    return kImporters;
-}
-
-const Importer& importer_of(SourceFormat format) {
-    const auto found = std::find_if(kImporters.begin(), kImporters.end(),
-                                    [&](const Importer& importer) { return importer.format == format; });
-    assert(found != kImporters.end());
-    return *found;
+std::span<const ReadableFormat> readable_formats() {
+    return kReadable;
 }
 
 namespace {
@@ -167,7 +97,7 @@ constexpr std::array kMarkups{
     Recognised{"<title", kHtmlPage},      Recognised{"<script", kHtmlPage},
 };
 
-/// Signatures of formats without an importer, at least in some builds.
+/// Signatures of formats that are not read, at least by some builds.
 constexpr std::array kBeginnings{
     Recognised{"xof ", kXFile},
     Recognised{"IDP2", kMd2File},
@@ -222,8 +152,8 @@ constexpr std::array kEndings{
     Recognised{".zip", kZipFile},
 };
 
-FileKind kind_of(const Importer& importer) {
-    return {importer.name, importer.format, {}};
+FileKind kind_of(const ReadableFormat& row) {
+    return {row.name, row.format, {}};
 }
 
 /// The text without a byte order mark and leading white space.
@@ -233,12 +163,12 @@ std::string_view trimmed(std::string_view text) {
     return start == std::string_view::npos ? std::string_view() : text.substr(start);
 }
 
-/// The importer for a file name's suffix; null if there is none.
-const Importer* find_by_suffix(const std::string& extension) {
-    for (const Importer& importer : importers()) {
+/// The format of a file name's suffix; null if there is none.
+const ReadableFormat* find_by_suffix(const std::string& extension) {
+    for (const ReadableFormat& row : kReadable) {
         if (!extension.empty() &&
-            std::find(importer.suffixes.begin(), importer.suffixes.end(), extension) != importer.suffixes.end()) {
-            return &importer;
+            std::find(row.suffixes.begin(), row.suffixes.end(), extension) != row.suffixes.end()) {
+            return &row;
         }
     }
     return nullptr;
@@ -318,7 +248,7 @@ FileKind find_kind_of_json(std::string_view text, const std::string& extension) 
     if (has("bendy_rig")) return kRigFile;
     if (has("bendy_text") || has("HEAD")) return {"the text of a bendy file", std::nullopt, {}};
     const bool is_gltf = extension == ".gltf" || std::any_of(kOfGltf.begin(), kOfGltf.end(), has);
-    return is_gltf ? kind_of(importer_of(SourceFormat::gltf)) : kJsonFile;
+    return is_gltf ? kind_of(kReadable.front()) : kJsonFile;
 }
 
 /// Recognises texts of meshes, which have no signature, by their lines.
@@ -364,8 +294,8 @@ std::optional<FileKind> find_stand_in(Bytes bytes) {
 
 std::optional<FileKind> find_file_kind(Bytes bytes, const std::filesystem::path& name) {
     const std::string_view text = as_text(bytes).substr(0, kKindBytes);
-    for (const Importer& importer : importers()) {
-        if (!importer.signature.empty() && text.starts_with(importer.signature)) return kind_of(importer);
+    for (const ReadableFormat& row : kReadable) {
+        if (!row.signature.empty() && text.starts_with(row.signature)) return kind_of(row);
     }
     if (const auto kind = find_stand_in(bytes)) return kind;
     if (const auto kind = find_by_beginning(kBeginnings, text)) return kind;
@@ -388,15 +318,15 @@ std::optional<FileKind> find_file_kind(const std::filesystem::path& file) {
 
 SourceFormat find_source_format(Bytes bytes, const std::filesystem::path& name) {
     if (const auto kind = find_file_kind(bytes, name); kind && kind->format) return *kind->format;
-    const Importer* importer = find_by_suffix(small_extension(name));
-    return importer == nullptr || importer->format == SourceFormat::bendy ? SourceFormat::gltf : importer->format;
+    const ReadableFormat* row = find_by_suffix(small_extension(name));
+    return row == nullptr || row->format == SourceFormat::bendy ? SourceFormat::gltf : row->format;
 }
 
 std::string list_readable_suffixes() {
     std::string list;
-    for (const Importer& importer : importers()) {
-        if (importer.format == SourceFormat::bendy) continue;
-        for (const std::string_view suffix : importer.suffixes) {
+    for (const ReadableFormat& row : kReadable) {
+        if (row.format == SourceFormat::bendy) continue;
+        for (const std::string_view suffix : row.suffixes) {
             if (!suffix.empty()) list.append(list.empty() ? "" : ", ").append(suffix);
         }
     }
@@ -404,8 +334,8 @@ std::string list_readable_suffixes() {
 }
 
 bool has_readable_suffix(const std::filesystem::path& file) {
-    const Importer* importer = find_by_suffix(small_extension(file));
-    return importer != nullptr && importer->format != SourceFormat::bendy;
+    const ReadableFormat* row = find_by_suffix(small_extension(file));
+    return row != nullptr && row->format != SourceFormat::bendy;
 }
 
 bool is_converted(Bytes bytes, const std::filesystem::path& name) {
