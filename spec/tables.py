@@ -28,7 +28,7 @@ def read_records():
     records = {}
     for chunk, struct, shortest in rows("records.def", "RECORD"):
         records[struct] = Row(name=struct, chunk=chunk, shortest=int(shortest), fields=[])
-    for struct, name, kind, count, offset, what in rows("records.def", "FIELD"):
+    for struct, name, kind, count, offset, what, *_ in rows("records.def", "FIELD"):
         records[struct].fields.append(Row(name=name, type=kind, count=int(count), offset=int(offset), what=what, values="",
                                           unit="", reference=None))
     field = {(struct, field.name): field for struct, record in records.items() for field in record.fields}

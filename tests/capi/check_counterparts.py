@@ -162,8 +162,10 @@ def in_cpp(source):
         found.update(declared(public_part(header)))
     for header, types in VIEWS.items():
         names = declared(public_part(source / "format/include/bendy/format" / header))
-        if header == "records.h":  # makes its enumerations from a table
+        if header == "records.h":  # makes its structs and enumerations from a table
             table = (source / "format/include/bendy/format/records.def").read_text()
+            fields = re.findall(r"^BENDY_(?:FIELD|CONSTANT)\((\w+), (\w+),", table, re.M)
+            names.update({name: None for struct, field in fields for name in (struct, f"{struct}::{field}")})
             rows = re.findall(r"^BENDY_VALUES\((\w+), \w+, (.+)\)$", table, re.M)
             names.update({name: values.split(", ") for name, values in rows})
         found.update({name: values for name, values in names.items() if name.split("::")[0] in types})

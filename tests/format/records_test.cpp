@@ -26,15 +26,9 @@ struct Field {
     std::size_t size;
 };
 
-using u8 = std::uint8_t;
-using u16 = std::uint16_t;
-using u32 = std::uint32_t;
-using u64 = std::uint64_t;
-using f32 = float;
-
 const std::vector<Field> kFields{
 #define BENDY_RECORD(chunk, Struct, shortest)
-#define BENDY_FIELD(Struct, field, type, count, offset, what) {#Struct, #field, offset, sizeof(type) * (count)},
+#define BENDY_FIELD(Struct, field, type, count, offset, what, ...) {#Struct, #field, offset, sizeof(Struct::field)},
 #include <bendy/format/records.def>
 #undef BENDY_RECORD
 #undef BENDY_FIELD
@@ -120,7 +114,7 @@ private:
     Buffer bytes_;
 };
 
-#define BENDY_FIELD(Struct, field, type, count, offset, what)
+#define BENDY_FIELD(Struct, field, type, count, offset, what, ...)
 
 TEST(Records, ComeBackAsTheyWereWritten) {
 #define BENDY_RECORD(chunk, Struct, shortest) Record<Struct>(#chunk, #Struct).comes_back_as_it_was_written();

@@ -195,7 +195,7 @@ struct RecordField {
 
 constexpr RecordField kRecordFields[] = {
 #define BENDY_RECORD(chunk, Struct, shortest)
-#define BENDY_FIELD(Struct, field, type, count, offset, what) {{}, #Struct, #type, count, offset},
+#define BENDY_FIELD(Struct, field, type, count, offset, what, ...) {{}, #Struct, #type, count, offset},
 #include <bendy/format/records.def>
 #undef BENDY_RECORD
 #undef BENDY_FIELD
@@ -221,7 +221,7 @@ const std::multimap<std::string_view, Place>& record_places() {
             all.insert({stream, {"StreamRecord"}});
 #define BENDY_RECORD(chunk, Struct, shortest) \
     if (all.find(#chunk) == all.end()) all.insert({#chunk, {#Struct}});
-#define BENDY_FIELD(Struct, field, type, count, offset, what)
+#define BENDY_FIELD(Struct, field, type, count, offset, what, ...)
 #include <bendy/format/records.def>
 #undef BENDY_RECORD
 #undef BENDY_FIELD
