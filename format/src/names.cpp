@@ -165,4 +165,13 @@ std::string no_such_name(std::string_view kind, std::string_view wanted, std::sp
            list_names(names, all);
 }
 
+std::string in_quotes(std::string_view name) {
+    return '"' + std::string(name) + '"';
+}
+
+std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
+    std::string text = std::to_string(count).append(1, ' ').append(count == 1 || many.empty() ? one : many);
+    return count == 1 || !many.empty() ? text : text + 's';
+}
+
 }  // namespace bendy

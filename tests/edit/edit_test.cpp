@@ -162,7 +162,7 @@ TEST(Strip, AClipWithoutTracksStaysForItsCurves) {
 
 TEST(MergeClips, TakesCurvesAlong) {
     Log log;
-    const auto merged = merge_clips(test::sample_file(), with_texture_curves({0, 1}), SameName::number, log);
+    const auto merged = add_clips(test::sample_file(), with_texture_curves({0, 1}), SameName::number, log);
     ASSERT_TRUE(merged) << merged.error().message;
     const Loaded loaded(*merged);
     const auto& clips = loaded.document.objects.front().clips;
@@ -199,7 +199,7 @@ TEST(MergeClips, PointsAtTheLightsOfTheSameNames) {
     const std::string lights = "/extensions/KHR_lights_punctual/lights/";
     const auto merged = [&](const std::string& here, const std::string& there, const std::string& path, Log& log) {
         const auto file =
-            merge_clips(with_light_curves(here, {}), with_light_curves(there, {path}), SameName::number, log);
+            add_clips(with_light_curves(here, {}), with_light_curves(there, {path}), SameName::number, log);
         EXPECT_TRUE(file) << file.error().message;
         const Loaded loaded(file ? *file : Buffer());
         const auto& curves = loaded.document.objects.front().clips.back().curves;
@@ -243,7 +243,7 @@ TEST(Markers, StayWithTheirClip) {
     const Edited part = extract(marked(), "spine", log);
     ASSERT_TRUE(part) << part.error().message;
     EXPECT_EQ(markers_of(Loaded(*part), 0), all);
-    const Edited merged = merge_clips(test::sample_file(), marked(), SameName::number, log);
+    const Edited merged = add_clips(test::sample_file(), marked(), SameName::number, log);
     ASSERT_TRUE(merged) << merged.error().message;
     EXPECT_EQ(markers_of(Loaded(*merged), 0), "");
     EXPECT_EQ(markers_of(Loaded(*merged), 1), all);
@@ -467,8 +467,8 @@ void edit_in_every_way(const Buffer& file, const Buffer& good) {
         look(change_clips(file, *change, log));
     }
     look(limit_influences(file, 1, log));
-    look(merge_clips(file, good, SameName::number, log));
-    look(merge_clips(good, file, SameName::number, log));
+    look(add_clips(file, good, SameName::number, log));
+    look(add_clips(good, file, SameName::number, log));
 }
 
 TEST(Hostile, FilesWithOneByteWrongAndRightSums) {

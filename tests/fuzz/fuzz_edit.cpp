@@ -32,7 +32,7 @@ edit::Edited change(Bytes file, unsigned choice, edit::Log& log) {
     if (choice % 5 == 4) return change_clip(file, choice / 5, log);
     if (choice % 5 == 0) return edit::strip(file, {static_cast<edit::Part>(choice / 5 % 14), ""}, log);
     if (choice % 5 == 1) return edit::extract(file, "#" + std::to_string(choice / 5 % 8), log);
-    if (choice % 5 == 2) return edit::merge_clips(file, file, static_cast<edit::SameName>(choice / 5 % 3), log);
+    if (choice % 5 == 2) return edit::add_clips(file, file, static_cast<edit::SameName>(choice / 5 % 3), log);
     edit::Rename rename;
     rename.kind = static_cast<edit::Named>(choice / 5 % 8);
     rename.names = {{"*a*", "b*"}, {"*", "x*"}};

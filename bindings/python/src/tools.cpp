@@ -277,7 +277,7 @@ py::tuple merge_clips(const SourcePointer& source, const SourcePointer& other, c
     require_bendy(*other);
     const edit::SameName rule = read_same_name(same_name);
     return edited(source,
-                  [&](Bytes bytes, edit::Log& log) { return edit::merge_clips(bytes, other->bytes(), rule, log); });
+                  [&](Bytes bytes, edit::Log& log) { return edit::add_clips(bytes, other->bytes(), rule, log); });
 }
 
 py::tuple retarget_clips(const SourcePointer& source, const SourcePointer& other, const std::string& clip,

@@ -289,7 +289,7 @@ Json run_merge_clips(const Json& request, Made& made) {
     const auto same_name = parsed(edit::parse_same_name(text_of(request, "sameName")));
     const MappedFile other = map_bendy(text_of(request, "other"));
     return edited(request, made,
-                  [&](Bytes bytes, edit::Log& log) { return edit::merge_clips(bytes, other.bytes(), same_name, log); });
+                  [&](Bytes bytes, edit::Log& log) { return edit::add_clips(bytes, other.bytes(), same_name, log); });
 }
 
 Json run_retarget_clips(const Json& request, Made& made) {

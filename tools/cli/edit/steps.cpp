@@ -189,7 +189,7 @@ private:
     void add_merge(const std::string& path) {
         const edit::SameName same_name = read_same_name();
         add_other("merging", path, [same_name](Bytes file, Bytes other, EditReport& report) {
-            return edit::merge_clips(file, other, same_name, report.log);
+            return edit::add_clips(file, other, same_name, report.log);
         });
     }
 

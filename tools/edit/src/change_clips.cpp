@@ -7,6 +7,7 @@
 #include "sides.h"
 
 #include <bendy/format/charconv.h>
+#include <bendy/format/names.h>
 
 #include <algorithm>
 #include <array>
@@ -52,10 +53,6 @@ std::string text_of(double number) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.6g", number);
     return text.data();
-}
-
-std::string quoted(std::string_view name) {
-    return '"' + std::string(name) + '"';
 }
 
 std::optional<double> read_number(std::string_view text) {
@@ -208,7 +205,7 @@ public:
         if (what_.work == ClipWork::keep) return keep(chosen);
         for (const std::size_t number : chosen) {
             const auto done = what_.work == ClipWork::copy ? copy(number) : change_one(number);
-            if (!done) return Problem{"clip " + quoted(names_[number]) + ": " + done.error().message};
+            if (!done) return Problem{"clip " + in_quotes(names_[number]) + ": " + done.error().message};
         }
         if (unchanged_.size() == chosen.size()) return Problem{unchanged_.front()};
         log_.warnings.insert(log_.warnings.end(), unchanged_.begin(), unchanged_.end());
@@ -231,9 +228,9 @@ private:
             kept.objects[places_[number].first].clips[places_[number].second] = false;
             gone.push_back(number);
         }
-        log_.done.push_back(gone.empty() ? "all clips are kept"
-                                         : "stripped " + std::to_string(gone.size()) +
-                                               (gone.size() == 1 ? " clip: " : " clips: ") + list_names(names_, gone));
+        log_.done.push_back(gone.empty()
+                                ? "all clips are kept"
+                                : "stripped " + counted(gone.size(), "clip") + ": " + list_names(names_, gone));
         if (const auto updated = keep_only(source_, kept, rewrite_, log_); !updated) return updated.error();
         return finish(rewrite_);
     }
@@ -242,7 +239,7 @@ private:
         const ClipView& clip = clip_of(number);
         const auto name = renamed({what_.clips.front(), what_.name}, clip.name).value_or(what_.name);
         if (taken_.empty()) taken_.insert(names_.begin(), names_.end());
-        if (!taken_.insert(name).second) return Problem{"there is a clip " + quoted(name) + " already"};
+        if (!taken_.insert(name).second) return Problem{"there is a clip " + in_quotes(name) + " already"};
         Rewrite sending(source_.tree);
         const std::uint32_t chunk = source_.tree.find(clip.chunk, FourCC("NAME"));
         if (chunk != kNone) {
@@ -251,7 +248,7 @@ private:
             sending.prepend(clip.chunk, whole_leaf(FourCC("NAME"), as_byte_span(name)));
         }
         rewrite_.insert_after(clip.chunk, sending.write(clip.chunk));
-        log_.done.push_back("copied clip " + quoted(clip.name) + " as " + quoted(name));
+        log_.done.push_back("copied clip " + in_quotes(clip.name) + " as " + in_quotes(name));
         return {};
     }
 
@@ -261,7 +258,7 @@ private:
         if (const auto done = work_on(*keys, places_[number].first); !done) return done.error();
         if (const auto written = write_keys(source_.tree, *keys, rewrite_); !written) return written.error();
         if (keys->decoded != 0) {
-            log_.warnings.push_back("clip " + quoted(names_[number]) + ": " + std::to_string(keys->decoded) +
+            log_.warnings.push_back("clip " + in_quotes(names_[number]) + ": " + std::to_string(keys->decoded) +
                                     " packed tracks are ordinary keys now; `bendy convert --compact` packs them again");
         }
         return {};
@@ -314,17 +311,17 @@ private:
         if (!lost.empty()) {
             std::vector<std::size_t> all;
             for (std::size_t k = 0; k < lost.size(); ++k) all.push_back(k);
-            log_.warnings.push_back("clip " + quoted(clip.view->name) +
+            log_.warnings.push_back("clip " + in_quotes(clip.view->name) +
                                     ": markers outside the part are left out: " + list_names(lost, all));
         }
         clip.markers = std::move(markers);
         clip.start = 0.0f;
         clip.end = static_cast<float>(double{to} - from);
         if (is_part && clip.loop) {
-            log_.warnings.push_back("clip " + quoted(clip.view->name) +
+            log_.warnings.push_back("clip " + in_quotes(clip.view->name) +
                                     " still repeats, from the end of the part to its start; --loop makes them equal");
         }
-        log_.done.push_back("trimmed clip " + quoted(clip.view->name) + " to " + text_of(from) + ".." + text_of(to) +
+        log_.done.push_back("trimmed clip " + in_quotes(clip.view->name) + " to " + text_of(from) + ".." + text_of(to) +
                             " s");
         return {};
     }
@@ -357,17 +354,17 @@ private:
             after += track.times.size();
         });
         if (!is_changed) {
-            unchanged_.push_back("clip " + quoted(clip.view->name) + " cannot be resampled: " +
+            unchanged_.push_back("clip " + in_quotes(clip.view->name) + " cannot be resampled: " +
                                  (before != 0          ? "its tracks step, or have one key each"
                                   : clip.plays.empty() ? "it has no keys"
                                                        : "it plays stored frames, which have a rate of their own"));
             return {};
         }
         if (!clip.plays.empty()) {
-            log_.warnings.push_back("clip " + quoted(clip.view->name) +
+            log_.warnings.push_back("clip " + in_quotes(clip.view->name) +
                                     ": its stored frames keep their rate; only its keys are resampled");
         }
-        log_.done.push_back("resampled clip " + quoted(clip.view->name) + " to " + text_of(what_.rate) +
+        log_.done.push_back("resampled clip " + in_quotes(clip.view->name) + " to " + text_of(what_.rate) +
                             " keys per second: " + std::to_string(after) + " keys instead of " +
                             std::to_string(before));
         return {};
@@ -386,10 +383,10 @@ private:
             if (chunk == kNone ||
                 other_side(as_text(source_.tree.payload(chunk))) == as_text(source_.tree.payload(chunk)))
                 continue;
-            log_.warnings.push_back("clip " + quoted(clip.view->name) + ": " + id.letters().data() +
+            log_.warnings.push_back("clip " + in_quotes(clip.view->name) + ": " + id.letters().data() +
                                     " tells left or right, and stays as it is");
         }
-        log_.done.push_back("mirrored clip " + quoted(clip.view->name));
+        log_.done.push_back("mirrored clip " + in_quotes(clip.view->name));
         return {};
     }
 
@@ -408,13 +405,13 @@ private:
         clip.change_keys([&](KeyTrack& track) { close_loop(track, clip.start, from, clip.end); });
         clip.loop = true;
         const auto names = names_of(clip.object->skeleton.joints);
-        std::string text = "clip " + quoted(clip.view->name) + " repeats";
+        std::string text = "clip " + in_quotes(clip.view->name) + " repeats";
         if (moved.joint != kNone) {
-            text += "; the end of joint " + quoted(names[moved.joint]) + " is moved by " + text_of(moved.amount * 1e3) +
-                    " mm, the most";
+            text += "; the end of joint " + in_quotes(names[moved.joint]) + " is moved by " +
+                    text_of(moved.amount * 1e3) + " mm, the most";
         }
         if (turned.joint != kNone) {
-            text += "; that of " + quoted(names[turned.joint]) + " is turned by " + text_of(turned.amount) +
+            text += "; that of " + in_quotes(names[turned.joint]) + " is turned by " + text_of(turned.amount) +
                     " degrees, the most";
         }
         log_.done.push_back(text);
@@ -459,12 +456,12 @@ std::span<const ClipWord> clip_words() {
 Result<ClipChange, Problem> parse_clip_change(std::string_view word, std::span<const std::string> texts) {
     const auto* const found =
         std::find_if(kClipWords.begin(), kClipWords.end(), [&](const ClipWord& known) { return known.word == word; });
-    if (found == kClipWords.end()) return Problem{quoted(word) + " is not a change of clips"};
+    if (found == kClipWords.end()) return Problem{in_quotes(word) + " is not a change of clips"};
     ClipChange change;
     change.work = found->work;
     std::vector<std::string> clips;
     for (const std::string& text : texts) {
-        if (!read_text(text, change)) return Problem{quoted(text) + " is not " + std::string(found->shape)};
+        if (!read_text(text, change)) return Problem{in_quotes(text) + " is not " + std::string(found->shape)};
         clips.insert(clips.end(), change.clips.begin(), change.clips.end());
     }
     change.clips = std::move(clips);

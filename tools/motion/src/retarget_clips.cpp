@@ -1,7 +1,7 @@
 #include <bendy/motion/retarget_clips.h>
 
-#include "follow.h"
 #include "other_characters.h"
+#include "play_on_target.h"
 
 #include <bendy/format/curve.h>
 #include <bendy/format/diagnostics.h>
@@ -41,12 +41,8 @@ std::string with(const char* format, double number) {
     return text.data();
 }
 
-std::string counted(std::size_t count, const std::string& what) {
-    return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
-}
-
 std::string quoted(std::string_view name, std::size_t number) {
-    return name.empty() ? "#" + std::to_string(number) : '"' + std::string(name) + '"';
+    return name.empty() ? "#" + std::to_string(number) : in_quotes(name);
 }
 
 std::string millimetres(double metres) {
@@ -133,7 +129,7 @@ public:
                 useless.push_back(number);
                 continue;
             }
-            auto followed = follow(retarget_, comparison_, clip, options_.retarget, sampled_);
+            auto followed = play_on_target(retarget_, comparison_, clip, options_.retarget, sampled_);
             if (!followed) return Problem{"clip " + quoted(clip.name, number) + " has numbers that are not finite"};
             put(number, *std::move(followed));
         }

@@ -1,6 +1,7 @@
 #include "leaf_assembler.h"
 
 #include <bendy/format/marker.h>
+#include <bendy/format/names.h>
 #include <bendy/format/packed_clip.h>
 
 #include <algorithm>
@@ -16,10 +17,6 @@ std::string quoted(std::string_view name) {
     std::string text = "\"";
     text.append(name.substr(0, kShown));
     return text.append(name.size() > kShown ? "...\"" : "\"");
-}
-
-std::string counted(std::uint64_t count, std::string_view what) {
-    return std::to_string(count).append(1, ' ').append(what).append(count == 1 ? "" : "s");
 }
 
 /// Returns true if the field is beyond the shortest form of its record.

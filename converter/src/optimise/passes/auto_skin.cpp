@@ -118,10 +118,6 @@ bool can_carry(const glm::dmat4& matrix) {
     return std::isfinite(1.0 / volume);
 }
 
-std::string counted(std::size_t count, const char* one, const char* many) {
-    return std::to_string(count) + ' ' + (count == 1 ? one : many);
-}
-
 /// The bones of a skeleton, by joint.
 std::vector<Bone> find_bones(const Scene& scene, const Flags& skeleton, const std::vector<glm::dmat4>& matrices) {
     const auto place = [&](std::uint32_t joint) { return glm::dvec3(matrices[joint][3]); };
@@ -203,7 +199,7 @@ Flags skeleton_without_skins(const Scene& scene, const EvaluatedPose& rest, Repo
     const bool are_parts = std::equal(bare.begin(), bare.end(), parts.begin(),
                                       [](bool is_bare, bool is_part) { return !is_bare || is_part; });
     if (bones == 0 || !are_parts) return bare;
-    report.warn("the skin is bound to the " + counted(bones, "joint", "joints") +
+    report.warn("the skin is bound to the " + counted(bones, "joint") +
                 " whose part meshes lie inside it; --skeleton takes others");
     return parts;
 }
@@ -250,7 +246,7 @@ Result<void, ImportError> auto_skin(Scene& scene, const std::string& skeleton, R
     for (const std::size_t mesh : meshes) vertices += scene.meshes[mesh].positions.size();
     if (vertices > kMostWork / bones.size()) {
         return ImportError{{},
-                           counted(vertices, "vertex", "vertices") + " and " + counted(bones.size(), "bone", "bones") +
+                           counted(vertices, "vertex", "vertices") + " and " + counted(bones.size(), "bone") +
                                " are too many to find the nearest"};
     }
     for (const std::size_t number : meshes) {
@@ -268,7 +264,7 @@ Result<void, ImportError> auto_skin(Scene& scene, const std::string& skeleton, R
         mesh.weights.assign(mesh.bones.size(), 1.0f);
         report.propose({Proposal::Kind::skin, name,
                         "skin of mesh " + name + ": " + counted(mesh.bones.size(), "vertex", "vertices") +
-                            " bound to " + counted(mesh.palette.joints.size(), "joint", "joints")});
+                            " bound to " + counted(mesh.palette.joints.size(), "joint")});
     }
     return {};
 }

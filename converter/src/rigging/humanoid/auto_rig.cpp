@@ -11,6 +11,7 @@
 #include "scene/failure.h"
 #include "scene/rest_frames.h"
 
+#include <bendy/format/names.h>
 #include <bendy/format/trig.h>
 
 #include <glm/geometric.hpp>
@@ -56,10 +57,6 @@ std::string decimals(double number, int places) {
 
 std::string vector_of(const glm::dvec3& v) {
     return '(' + decimals(v.x, 2) + ", " + decimals(v.y, 2) + ", " + decimals(v.z, 2) + ')';
-}
-
-std::string clips_of(std::uint32_t clips) {
-    return clips == 1 ? "1 clip" : std::to_string(clips) + " clips";
 }
 
 std::string part_of(const JointAnatomy& anatomy) {
@@ -115,7 +112,7 @@ Proposal proposal_of(const Scene& scene, const Chain& chain, const std::optional
     if (bend) {
         const bool is_arm = chain.name.find("Arm") != std::string::npos;
         line += std::string(is_arm ? ", elbow" : ", knee") + " points " + way_of(bend->way, stance);
-        if (bend->clips != 0) line += " as in " + clips_of(bend->clips);
+        if (bend->clips != 0) line += " as in " + counted(bend->clips, "clip");
     }
     return {Proposal::Kind::chain, chain.name, std::move(line)};
 }
@@ -138,12 +135,12 @@ Proposal proposal_of(const Scene& scene, const ProposedConstraint& proposed, con
     if (const long straight = std::lround(proposed.straight); straight != 0)
         line += ", straight at " + std::to_string(straight);
     if (proposed.is_axis_fitted) {
-        line += ", axis fitted to " + clips_of(proposed.clips) + ", " + decimals(proposed.axis_off, 1) +
+        line += ", axis fitted to " + counted(proposed.clips, "clip") + ", " + decimals(proposed.axis_off, 1) +
                 " degrees off " + whose;
     }
     if (proposed.growth > 0.05 && proposed.clips > 0) {
         line += ", up to " + std::to_string(std::lround(std::ceil(proposed.growth))) + " degrees wider than " + whose +
-                " for " + clips_of(proposed.clips);
+                " for " + counted(proposed.clips, "clip");
     }
     return {Proposal::Kind::limits, std::move(name), std::move(line)};
 }

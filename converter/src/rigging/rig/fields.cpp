@@ -3,6 +3,7 @@
 #include "scene/failure.h"
 
 #include <bendy/format/clip.h>
+#include <bendy/format/names.h>
 #include <bendy/format/read_record.h>
 
 #include <algorithm>
@@ -25,8 +26,7 @@ std::string in_digits(float value) {
 /// Expects a list of `size` elements.
 const OrderedJson& need_list_of(std::size_t size, const OrderedJson& value, const std::string& place) {
     if (need_list(value, place).size() != size) {
-        fail(place, "expected " + std::to_string(size) + (size == 1 ? " element" : " elements") + ", found " +
-                        std::to_string(value.size()));
+        fail(place, "expected " + counted(size, "element") + ", found " + std::to_string(value.size()));
     }
     return value;
 }

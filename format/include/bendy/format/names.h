@@ -4,6 +4,7 @@
 #include <bendy/format/result.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,6 +45,13 @@ std::string did_you_mean(std::span<const std::string_view> names, std::string_vi
 /// Returns a message for a name that does not exist, with a similar name, `...; did you mean "Walk"?`, and a list of
 /// the existing names if these are few, or if none is similar. Names are as in the file: escape them for a terminal.
 std::string no_such_name(std::string_view kind, std::string_view wanted, std::span<const std::string_view> names);
+
+/// Returns `"Walk"`.
+std::string in_quotes(std::string_view name);
+
+/// Returns "3 joints", "1 joint".
+/// \param many  the plural; empty: `one` and an s
+std::string counted(std::uint64_t count, std::string_view one, std::string_view many = {});
 
 /// Returns `"a", "b", "c" and 3 more`; a thing without a name is listed by its number, `#3`.
 std::string list_names(std::span<const std::string_view> names, std::span<const std::size_t> numbers,

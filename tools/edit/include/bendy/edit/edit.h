@@ -150,7 +150,7 @@ enum class SameName : std::uint8_t {
 /// without a match are left out and listed. Keys are copied unchanged, packed samples too; only the packed tracks of a
 /// joint whose rest transform differs here are decoded, since they are relative to it. Differing rest poses cause a
 /// warning. If nothing in the other file matches, that is a problem.
-Edited merge_clips(Bytes file, Bytes other, SameName same_name, Log& log);
+Edited add_clips(Bytes file, Bytes other, SameName same_name, Log& log);
 /// Parses "error", "replace" or "number".
 Result<SameName, Problem> parse_same_name(std::string_view word);
 
@@ -174,7 +174,7 @@ struct Transfer {
 };
 
 /// Appends these clips to those of this file. Their markers and all else that they have come along; curves and frames
-/// are assigned as by merge_clips, those of joints by Transfer::joints.
+/// are assigned as by add_clips, those of joints by Transfer::joints.
 Edited put_clips(Bytes file, Bytes other, const Transfer& transfer, SameName same_name, Log& log);
 
 /// Extracts a part of a character into a file of its own: the joint with this name (see find_named) and its

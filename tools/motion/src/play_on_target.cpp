@@ -1,4 +1,4 @@
-#include "follow.h"
+#include "play_on_target.h"
 
 #include "linear_keys.h"
 #include "sample_times.h"
@@ -582,8 +582,9 @@ private:
 
 }  // namespace
 
-std::optional<Followed> follow(Retarget& retarget, BoneComparison& comparison, const Clip& clip,
-                               const RetargetOptions& options, const std::vector<std::uint32_t>& sampled_meshes) {
+std::optional<Followed> play_on_target(Retarget& retarget, BoneComparison& comparison, const Clip& clip,
+                                       const RetargetOptions& options,
+                                       const std::vector<std::uint32_t>& sampled_meshes) {
     return Following(retarget, comparison, clip, options).run(sampled_meshes);
 }
 

@@ -62,8 +62,9 @@ struct Followed {
 /// Plays the clip on the target. Nothing, if a number is not finite.
 /// \param options         those of `retarget`
 /// \param sampled_meshes  meshes of the target whose weights become tracks
-std::optional<Followed> follow(Retarget& retarget, BoneComparison& comparison, const Clip& clip,
-                               const RetargetOptions& options, const std::vector<std::uint32_t>& sampled_meshes);
+std::optional<Followed> play_on_target(Retarget& retarget, BoneComparison& comparison, const Clip& clip,
+                                       const RetargetOptions& options,
+                                       const std::vector<std::uint32_t>& sampled_meshes);
 
 inline constexpr const char* kContactNames[kContacts] = {"left_heel_contact",
                                                          "left_toes_contact",

@@ -4,6 +4,8 @@
 #include "place_clips.h"
 #include "rewrite.h"
 
+#include <bendy/format/names.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -175,8 +177,7 @@ public:
     void warn(std::span<const bool> is_animated, Log& log) const {
         const Unpaired unpaired = find_unpaired(is_animated);
         const auto list = [&](const std::vector<std::size_t>& joints) {
-            return std::to_string(joints.size()) + (joints.size() == 1 ? " joint: " : " joints: ") +
-                   list_names(names_of(there_.skeleton.joints), joints, 20);
+            return counted(joints.size(), "joint") + ": " + list_names(names_of(there_.skeleton.joints), joints, 20);
         };
         if (!unpaired.missing.empty()) {
             log.warnings.push_back("there is no joint here for the tracks of " + list(unpaired.missing) +
@@ -220,7 +221,7 @@ public:
         const auto there = numbers_in(there_);
         constexpr std::size_t kShown = 4;
         const auto count = [&](const std::vector<std::size_t>& numbers, const char* where) {
-            std::string text = std::to_string(numbers.size()) + (numbers.size() == 1 ? " joint " : " joints ") + where;
+            std::string text = counted(numbers.size(), "joint") + ' ' + where;
             for (std::size_t k = 0; k < std::min(numbers.size(), kShown); ++k)
                 text += (k == 0 ? " (#" : ", #") + std::to_string(numbers[k]);
             return text + (numbers.size() > kShown ? ", ...)" : ")");
@@ -292,8 +293,7 @@ private:
             }
         }
         if (differing == 0) return;
-        log.warnings.push_back("the rest poses of " + std::to_string(differing) +
-                               (differing == 1 ? " joint differ" : " joints differ") + ", most that of \"" +
+        log.warnings.push_back("the rest poses of " + counted(differing, "joint") + " differ, most that of \"" +
                                std::string(there_.skeleton.joints[worst].name) + "\": " + describe(most) +
                                "; if that is another body, retarget its clips instead");
     }
@@ -428,8 +428,7 @@ private:
         mark_animated(from_, is_animated, meshes);
         const auto [missing, shared] = pairing_.find_unpaired(is_animated);
         if (!shared.empty()) {
-            return {"its clips animate " + std::to_string(missing.size() + shared.size()) +
-                    (missing.size() + shared.size() == 1 ? " joint" : " joints") +
+            return {"its clips animate " + counted(missing.size() + shared.size(), "joint") +
                     ", and it is not clear which one here is meant: " + pairing_.explain_shared(shared.front())};
         }
         if (missing.empty()) return {"its clips animate nothing in this file"};
@@ -452,9 +451,6 @@ private:
     /// Returns "3 tracks, 1 curve": what is merged of a clip.
     [[nodiscard]] std::string contents_of(const ClipView& clip, const TrackCounts& counts) const {
         const std::size_t curves = placer_.curves(clip);
-        const auto counted = [](std::size_t count, const char* what) {
-            return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
-        };
         if (curves == 0) return counted(counts.stay, "track");
         return (counts.stay == 0 ? "" : counted(counts.stay, "track") + ", ") + counted(curves, "curve");
     }
@@ -475,7 +471,7 @@ Result<SameName, Problem> parse_same_name(std::string_view word) {
     return Problem{"\"" + std::string(word) + "\" must be error, replace or number"};
 }
 
-Edited merge_clips(Bytes file, Bytes other, SameName same_name, Log& log) {
+Edited add_clips(Bytes file, Bytes other, SameName same_name, Log& log) {
     const auto files = open_clip_files(file, other, log);
     if (!files) return files.error();
     return Merger(*files, same_name, log).merge();
