@@ -41,15 +41,6 @@ public:
         return is_there() ? *rest_frame_ * bendy::wider_axis(*constraint_) : glm::dvec3(0.0);
     }
 
-    /// Rotates a unit rotation that is outside the limits about a unit axis until it is inside; returns false if no
-    /// angle does that.
-    bool swivel(glm::dquat& local, const glm::dvec3& axis) const {
-        const double half = 0.5 * best_swivel(*constraint_, *rest_frame_, local, axis);
-        const trig::SinCos turn = trig::sin_cos(half);
-        local = glm::dquat(turn.cos, axis * turn.sin) * local;
-        return holds(local);
-    }
-
     /// Moves a unit rotation that is not inside the limits there; returns true if it was inside.
     BENDY_ALWAYS_INLINE bool make_legal(Rotation& local) const { return !is_there() || make_legal_within(local); }
 
@@ -155,11 +146,8 @@ std::optional<ReachResult> reach_two_bone(const Chain& chain, const ReachTarget&
     if (side != LinkConstraint::Side::inside) return std::nullopt;
     const double distance = finish(limb, bend, turn, reach);
     if (!(distance >= 0.0)) return std::nullopt;
-    glm::dquat upper = glm_of(reach.upper);
-    if (!limits.upper.holds(upper)) {
-        const glm::dvec3 axis = glm_of(reach.way * (1.0 / root(reach.distance)));
-        if (!limits.upper.swivel(upper, axis)) return std::nullopt;
-    }
+    const glm::dquat upper = glm_of(reach.upper);
+    if (!limits.upper.holds(upper)) return std::nullopt;
     state.set_rotation(chain.record.start, glm::quat(upper));
     state.set_rotation(model.parents[chain.record.effector], glm::quat(glm_of(reach.lower)));
     if (limits.are_there()) make_end_legal(chain, pose, options);
