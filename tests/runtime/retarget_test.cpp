@@ -680,7 +680,7 @@ TEST(Retarget, HandsThatHoldOneThingStayTogether) {
     EXPECT_EQ(apart({}, 20.0), apart(kDirections, 20.0));
 }
 
-/// A human with boxes for chest and hips, of these half edges, and for hands and feet.
+/// A human with boxes for chest and hips, of these half edges, and for hands, feet and the sword.
 test::PosedBody<HumanModel> with_trunk(HumanSpec human, const glm::vec3& half) {
     human.axes = 0;
     HumanModel model(human);
@@ -695,6 +695,7 @@ test::PosedBody<HumanModel> with_trunk(HumanSpec human, const glm::vec3& half) {
     };
     box("spine2", half);
     box("hips", half);
+    box("sword", {0.02f, 0.02f, 0.3f});
     for (const char* side : {"left", "right"}) {
         box(std::string(side) + "Hand", glm::vec3(kHand));
         box(std::string(side) + "Foot", glm::vec3(0.04f));
@@ -732,6 +733,30 @@ TEST(Retarget, AHandOnTheChestLiesOnADeeperOne) {
         EXPECT_GT(now, -0.01) << bent;
         last = now;
     }
+}
+
+TEST(Retarget, AHandOnWhatTheOtherOneHoldsStaysThere) {
+    auto source = with_trunk({}, {0.15, 0.2, 0.12}), target = with_trunk({.collar = 0.2}, {0.15, 0.2, 0.12});
+    ContactWeights contacts{};
+    const auto off = [&](const RetargetOptions& options) {
+        Retarget retargeted = made(source, target, options);
+        source.pose().set_rest();
+        source.turn_by("leftArm", {0, 1, 0}, -80.0);
+        source.turn_by("leftForeArm", {0, 1, 0}, -20.0);
+        source.turn_by("rightArm", {0, 1, 0}, 70.0);
+        source.turn_by("rightForeArm", {0, 1, 0}, 45.0);
+        RetargetState state;
+        const auto done = retarget(target.pose(), retargeted, source.pose(), state);
+        EXPECT_TRUE(done);
+        contacts = done->contacts;
+        const glm::dvec3 way = source.place("rightHand") - source.place("sword");
+        return glm::length(target.place("rightHand") - target.place("sword") - way);
+    };
+    const auto left = static_cast<std::size_t>(Contact::left_hand_body);
+    EXPECT_LT(off({}), 0.01);
+    EXPECT_EQ(contacts[left], 0.0f) << "it holds the sword";
+    EXPECT_EQ(contacts[left + 1], 1.0f);
+    EXPECT_GT(off(kDirections), 0.1);
 }
 
 TEST(Retarget, AHandThatHangsIsNotInsideOfABroaderBody) {

@@ -47,8 +47,7 @@ public:
         find_detached();
         make_limbs();
         if (plan_.is_human && plan_.options.plants_feet && source_.has_legs() && target_.has_legs()) {
-            plan_.source_surface = find_surface(source_);
-            plan_.surface = find_surface(target_);
+            find_surfaces();
         }
         match_morph_targets();
     }
@@ -367,6 +366,30 @@ private:
         const double from = glm::dot(plan_.source_up, source_.place(source) - plan_.map.from) + source_.raised();
         const double to = glm::dot(plan_.up, target_.place(target) - plan_.map.to) + target_.raised();
         return {source, from, to - plan_.map.scale * from};
+    }
+
+    /// Finds what touches what. Props count that both hold in a hand.
+    void find_surfaces() {
+        std::vector<std::uint32_t> from, to, hands;
+        for (const MovedJoint& moved : plan_.moved) {
+            const std::uint32_t hand = moved.is_prop && to.size() < kMostProps ? hand_above(moved.joint) : kNone;
+            if (hand == kNone) continue;
+            from.push_back(moved.source);
+            to.push_back(moved.joint);
+            hands.push_back(hand);
+        }
+        plan_.source_surface = find_surface(source_, from);
+        plan_.surface = find_surface(target_, to);
+        for (std::size_t k = 0; k < hands.size(); ++k) plan_.surface.shells.at(kBodyShells + k).held_by = hands[k];
+    }
+
+    /// Returns the hand that a joint of the target is below, 0 or 1; kNone if there is none.
+    [[nodiscard]] std::uint32_t hand_above(std::uint32_t joint) const {
+        for (std::uint32_t hand = 0; hand < plan_.hands.size(); ++hand) {
+            const LimbPlan& arm = plan_.limbs.at(plan_.feet.size() + hand);
+            if (arm.foot != kNone && links_between(arm.foot, joint) != 0) return hand;
+        }
+        return kNone;
     }
 
     void match_morph_targets() {

@@ -1,7 +1,7 @@
 #include "plant_contacts.h"
 
+#include "foot_planting.h"
 #include "settle.h"
-#include "stand.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

@@ -1,15 +1,23 @@
 #include "shell.h"
 
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <limits>
 
 namespace bendy {
+namespace {
+
+constexpr std::size_t kNowhere = 13;
+
+}  // namespace
 
 glm::dvec3 direction(std::size_t number) {
+    constexpr std::array kUnit{0.0, 1.0, 0.70710678118654752, 0.57735026918962576};
     const auto k = static_cast<int>(number);
-    return {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+    const glm::ivec3 way(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    return kUnit.at(static_cast<std::size_t>(way.x * way.x + way.y * way.y + way.z * way.z)) * glm::dvec3(way);
 }
 
 void Shell::take(const glm::dvec3& place) {
@@ -33,11 +41,19 @@ bool Shell::finish() {
     return half.x > kLeast && half.y > kLeast && half.z > kLeast;
 }
 
-double Shell::radius(const glm::dvec3& way) const {
+double Shell::gap(const glm::dvec3& way) const {
+    double most = -std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < kDirections; ++k) {
+        if (k != kNowhere) most = std::max(most, glm::dot(way, direction(k)) - reach[k]);
+    }
+    return most;
+}
+
+double Shell::radius(const glm::dvec3& side, double gap) const {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < kDirections; ++k) {
-        const double along = glm::dot(way, direction(k));
-        if (along > 0.0) least = std::min(least, std::max(reach[k], 0.0) / along);
+        const double along = glm::dot(side, direction(k));
+        if (along > 0.0) least = std::min(least, std::max(reach[k] + gap, 0.0) / along);
     }
     return least;
 }

@@ -19,7 +19,7 @@ constexpr double kFingerBall = 0.02;              // the same of the joints of i
 constexpr double kBelowHips = 0.25;               // leg lengths: where the trunk of who stands ends
 constexpr double kBelowKnee = 0.08;               // leg lengths: where a knee ends
 constexpr double kLoose = 1.7;                    // of the mean distance from a thigh's bone: a skirt
-constexpr std::size_t kHead = 0, kChest = 1, kBelly = 2, kThighs = 3, kNoShell = 5;  // of Surface::shells
+constexpr std::uint32_t kHead = 0, kChest = 1, kBelly = 2, kThighs = 3;  // of Surface::shells
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// A joint whose vertices are looked at: those of which it has the largest weight, or one of some joints below it.
@@ -30,7 +30,7 @@ struct SkinBone {
     std::uint32_t end = kNone;  ///< if only vertices near to the bone from the joint to that count
     bool is_trunk = false;
     double least_below = -kInfinite;  ///< metres: the same as `least`, of the joints below it
-    std::size_t shell = kNoShell;     ///< of Surface::shells; kChest for all of the trunk
+    std::uint32_t shell = kNone;      ///< of Surface::shells; kChest for all of the trunk
 };
 
 struct SkinVertex {
@@ -41,7 +41,10 @@ struct SkinVertex {
 
 class SurfaceFinder {
 public:
-    explicit SurfaceFinder(const Body& body) : body_(body), model_(body.model()) {}
+    SurfaceFinder(const Body& body, std::span<const std::uint32_t> props)
+        : body_(body), model_(body.model()), props_(props) {
+        surface_.shells.resize(kBodyShells + props.size());
+    }
 
     Surface find() {
         list_bones();
@@ -74,6 +77,10 @@ private:
             list_below(head, true);
         }
         for (std::size_t k = 0; k < body_.limbs().size(); ++k) list_limb(body_.limbs()[k], surface_.ends.at(k));
+        for (std::uint32_t k = 0; k < props_.size(); ++k) {
+            list({props_[k], &prop_});
+            bones_.back().shell = kBodyShells + k;
+        }
     }
 
     void list(const SkinBone& bone) {
@@ -168,7 +175,7 @@ private:
         for (const SkinVertex& vertex : vertices_) {
             const bool is_here = vertex.bone == &bone && height_of(vertex.rest) >= bone.least;
             if (!is_here || distance_from(bone, vertex.rest) * count > kLoose * sum) continue;
-            if (bone.shell != kNoShell) take_into_shell(bone.shell, vertex.rest);
+            if (bone.shell != kNone) take_into_shell(bone.shell, vertex.rest);
             for (std::size_t k = 0; k < kDirections; ++k) {
                 const SkinVertex*& most = farthest.at(k);
                 if (most == nullptr || glm::dot(vertex.rest - most->rest, direction(k)) > 0.0) most = &vertex;
@@ -179,7 +186,7 @@ private:
         }
     }
 
-    void take_into_shell(std::size_t shell, const glm::dvec3& place) {
+    void take_into_shell(std::uint32_t shell, const glm::dvec3& place) {
         const bool is_belly = shell == kChest && height_of(place) < waist_;
         surface_.shells.at(is_belly ? kBelly : shell).take(glm::conjugate(body_.axes()) * place);
     }
@@ -198,14 +205,12 @@ private:
         for (std::uint32_t joint = bone.joint + 1; joint < bone_of_.size() && !bone.is_trunk; ++joint) {
             if (bone_of_[joint] == bone_of_[bone.joint]) add_ball(*bone.part, joint, kFingerBall);
         }
-        if (bone.shell == kNoShell) return;
+        if (bone.shell == kNone || bone.shell >= kBodyShells) return;
         const double radius = (bone.is_trunk ? kBall : kLimbBall) * body_.lengths().front();
         glm::dvec3 middle = body_.place(bone.joint);
         if (bone.shell == kHead) middle += radius * body_.up();  // the joint is where the neck ends
-        for (std::size_t k = 0; k < kDirections; ++k) {
-            const double length = glm::length(direction(k));
-            if (length > 0.0) take_into_shell(bone.shell, middle + body_.axes() * (direction(k) * (radius / length)));
-        }
+        for (std::size_t k = 0; k < kDirections; ++k)
+            take_into_shell(bone.shell, middle + body_.axes() * (radius * direction(k)));
         if (bone.end != kNone) take_into_shell(bone.shell, body_.place(bone.end));
     }
 
@@ -231,10 +236,11 @@ private:
         set_joint(kHead, body_.joint(Role::head));
         set_joint(kChest, trunk.empty() ? kNone : trunk.back());
         set_joint(kBelly, body_.joint(Role::hips));
-        for (std::size_t leg = 0; leg < 2; ++leg) set_joint(kThighs + leg, body_.limbs()[leg].upper());
+        for (std::uint32_t leg = 0; leg < 2; ++leg) set_joint(kThighs + leg, body_.limbs()[leg].upper());
+        for (std::uint32_t k = 0; k < props_.size(); ++k) set_joint(kBodyShells + k, props_[k]);
     }
 
-    void set_joint(std::size_t number, std::uint32_t joint) {
+    void set_joint(std::uint32_t number, std::uint32_t joint) {
         Shell& shell = surface_.shells.at(number);
         if (joint == kNone || !shell.finish()) return;
         const glm::dmat4 axes = glm::mat4_cast(glm::conjugate(body_.axes()));
@@ -255,6 +261,8 @@ private:
 
     const Body& body_;
     const Model& model_;
+    std::span<const std::uint32_t> props_;
+    SurfacePart prop_;    // props do not touch the ground
     double waist_ = 0.0;  // metres along up: between belly and chest
     Surface surface_;
     std::vector<SkinBone> bones_;
@@ -265,8 +273,8 @@ private:
 
 }  // namespace
 
-Surface find_surface(const Body& body) {
-    return SurfaceFinder(body).find();
+Surface find_surface(const Body& body, std::span<const std::uint32_t> props) {
+    return SurfaceFinder(body, props).find();
 }
 
 std::span<const glm::dvec3> SurfacePart::places(PoseState& pose) {

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -33,17 +34,23 @@ struct SurfacePart {
     std::span<const glm::dvec3> places(PoseState& pose);
 };
 
-/// Where a human may touch the ground or itself.
+/// Head, chest, belly with hips, and thighs.
+inline constexpr std::size_t kBodyShells = 5;
+/// So many props count.
+inline constexpr std::size_t kMostProps = 4;
+
+/// Where a human may touch the ground, itself, or what it holds.
 struct Surface {
     SurfacePart body;                 ///< head, trunk, thighs and knees
     SurfacePart arms;                 ///< without hands
     std::array<SurfacePart, 4> ends;  ///< of the limbs, see Body::limbs: feet and hands
-    std::array<Shell, 5> shells;      ///< what hands may touch: head, chest, belly with hips, thighs
+    std::vector<Shell> shells;        ///< what hands may touch: kBodyShells parts of the body, then props
     double floor = 0.0;               ///< metres along up, in model space: below the soles of who stands
 };
 
 /// Reads the skin. What hangs off the body, such as a cape or a skirt, does not count. A body without a skin has its
 /// joints, each in a ball.
-Surface find_surface(const Body& body);
+/// \param props  joints in hands, at most kMostProps; one without a skin has a shell without a joint
+Surface find_surface(const Body& body, std::span<const std::uint32_t> props);
 
 }  // namespace bendy

@@ -14,8 +14,8 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <utility>
+#include <vector>
 
 namespace bendy {
 namespace {
@@ -59,17 +59,18 @@ public:
         return glm::dvec3(shell_.to_body * (glm::inverse(matrix_) * glm::dvec4(place, 1.0))) - shell_.middle;
     }
     /// Returns how far the hand is from the part if its middle is there, metres; negative inside.
-    [[nodiscard]] double gap(const glm::dvec3& way) const { return glm::length(way) - distance(glm::normalize(way)); }
+    [[nodiscard]] double gap(const glm::dvec3& way) const { return shell_.gap(way) - thickness(glm::normalize(way)); }
     /// Returns where the middle of the hand is if it is so far from the part, in model space.
     [[nodiscard]] glm::dvec3 place_at(double gap, const glm::dvec3& way) const {
         const glm::dvec3 side = glm::normalize(way);
-        return {matrix_ * (shell_.from_body * glm::dvec4(shell_.middle + side * (distance(side) + gap), 1.0))};
+        return {matrix_ * (shell_.from_body *
+                           glm::dvec4(shell_.middle + side * shell_.radius(side, gap + thickness(side)), 1.0))};
     }
 
 private:
-    [[nodiscard]] double distance(const glm::dvec3& side) const {
+    [[nodiscard]] double thickness(const glm::dvec3& side) const {
         const glm::dvec3 inwards = -glm::dmat3(matrix_) * (glm::dmat3(shell_.from_body) * side);
-        return shell_.radius(side) + hand_.thickness(glm::normalize(inwards));
+        return hand_.thickness(glm::normalize(inwards));
     }
 
     const Shell& shell_;
@@ -77,14 +78,17 @@ private:
     const HandSkin& hand_;
 };
 
-/// A hand beside the own body.
+/// A hand beside the own body, and beside what the other hand holds.
 class OwnBody {
 public:
-    OwnBody(SettledFrame& frame, std::size_t number)
+    OwnBody(SettledFrame& frame, std::size_t hand, std::size_t number)
         : frame_(frame),
           source_(frame.plan.source_surface.ends.at(number), frame.source),
           target_(frame.plan.surface.ends.at(number), frame.to) {
-        for (std::size_t k = 0; k < frame.plan.surface.shells.size(); ++k) add(k);
+        const std::vector<Shell>& shells = frame.plan.surface.shells;
+        for (std::size_t k = 0; k < shells.size(); ++k) {
+            if (shells[k].held_by != hand) add(k);
+        }
     }
 
     [[nodiscard]] const glm::dvec3& hand() const { return target_.middle(); }
@@ -140,7 +144,7 @@ private:
 
     SettledFrame& frame_;
     HandSkin source_, target_;
-    std::array<std::optional<Part>, std::tuple_size_v<decltype(Surface::shells)>> parts_;
+    std::array<std::optional<Part>, kBodyShells + kMostProps> parts_;
 };
 
 /// Returns the sine of the angle by which a limb is bent; 1 beyond a right angle.
@@ -165,7 +169,7 @@ void touch_with(SettledFrame& frame, std::size_t hand, const GivenContacts& give
         return;
     }
     LimbFrame& limb = frame.limbs.at(number);
-    const OwnBody body(frame, number);
+    const OwnBody body(frame, hand, number);
     const double gap = body.source_gap();
     const double near = smooth(gap, kIsOff, kTouches) * smooth(-gap, kIsThrough, kIsIn);
     const auto found = static_cast<float>(near * smooth(bend_of(frame, plan), kSomewhat, kClearly));

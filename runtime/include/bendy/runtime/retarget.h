@@ -81,7 +81,7 @@ std::string error_text(const RetargetError& error);
 /// Contacts. Each foot has two points that may touch the ground; those of an animal's hind legs have the names of a
 /// human's, and the heel is where the paw or the hoof begins. A human's hands may touch it too, and so may its body
 /// (head, trunk, thighs or knees) when it sits, lies or kneels. Hands close together, as on one sword, also count, and
-/// a hand on the own head, trunk or thighs.
+/// a hand on the own head, trunk or thighs, or on a prop in the other hand.
 enum class Contact : std::uint8_t {
     left_heel,
     left_toes,

@@ -1,4 +1,4 @@
-#include "stand.h"
+#include "foot_planting.h"
 
 #include "math/smooth.h"
 #include "pose/pose_state.h"
