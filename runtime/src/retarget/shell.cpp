@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace bendy {
@@ -14,10 +15,9 @@ constexpr std::size_t kNowhere = 13;
 }  // namespace
 
 glm::dvec3 direction(std::size_t number) {
-    constexpr std::array kUnit{0.0, 1.0, 0.70710678118654752, 0.57735026918962576};
     const auto k = static_cast<int>(number);
-    const glm::ivec3 way(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-    return kUnit.at(static_cast<std::size_t>(way.x * way.x + way.y * way.y + way.z * way.z)) * glm::dvec3(way);
+    const glm::dvec3 way(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    return number == kNowhere ? way : way / std::sqrt(glm::dot(way, way));
 }
 
 void Shell::take(const glm::dvec3& place) {

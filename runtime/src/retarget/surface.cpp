@@ -205,7 +205,7 @@ private:
         for (std::uint32_t joint = bone.joint + 1; joint < bone_of_.size() && !bone.is_trunk; ++joint) {
             if (bone_of_[joint] == bone_of_[bone.joint]) add_ball(*bone.part, joint, kFingerBall);
         }
-        if (bone.shell == kNone || bone.shell >= kBodyShells) return;
+        if (bone.shell >= kBodyShells) return;  // or none
         const double radius = (bone.is_trunk ? kBall : kLimbBall) * body_.lengths().front();
         glm::dvec3 middle = body_.place(bone.joint);
         if (bone.shell == kHead) middle += radius * body_.up();  // the joint is where the neck ends
