@@ -56,7 +56,7 @@ tools=../../build/cross/web-tools/build/web/tools
 # 2,100 IK, as above, and 1,000 roles that are missed; 10,000 bodies that are assumed to stand in a T, clips on the spot, joints that
 # pop, and animals whose rests are alike; 5,000 bodies and hands that touch the ground, and what a T of bones needs to know;
 # 2,500 hands on the own body.
-node embed.mjs "$tools/tools.wasm" src/generated/tools.ts 1041000
+node embed.mjs "$tools/tools.wasm" src/generated/tools.ts 1038000
 python3 ../convert_options.py src/generated/convert_options.ts
 [ "$what" = package ] || [ -e test/compilers/node_modules/oldest ] || (cd test/compilers && npm ci --silent)
 npm run --silent build
