@@ -12,7 +12,7 @@
 
 namespace bendy::converter {
 
-/// What `convert` does with a format that it reads.
+/// How `convert` reads one format.
 struct Importer {
     SourceFormat format;
     bool takes_scene = false;    ///< has several scenes to choose from

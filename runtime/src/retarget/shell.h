@@ -18,7 +18,7 @@ glm::dvec3 direction(std::size_t number);
 /// A part of a body, or a prop, as planes around its skin, which move with a joint; in the body's axes as it stands,
 /// metres.
 struct Shell {
-    std::uint32_t joint = kNone;              ///< kNone: there is no such part
+    std::uint32_t joint = kNone;              ///< kNone: the body lacks this part
     std::uint32_t held_by = kNone;            ///< of a prop: the hand below which it is, 0 or 1
     glm::dmat4 to_body{1.0}, from_body{1.0};  ///< from the space of the joint, and back to it
     glm::dvec3 middle{0.0};                   ///< of the box along the axes

@@ -114,7 +114,7 @@ public:
         }
         return weights > 0.0 ? sum / weights : hand();
     }
-    /// Moves a place until the hand there is no deeper in the body than the source's is.
+    /// Pushes a place outwards until the hand is no deeper in the body than the source's.
     [[nodiscard]] glm::dvec3 outside(glm::dvec3 place) const {
         for (const auto& part : parts_) {
             if (!part) continue;

@@ -21,7 +21,7 @@ inline constexpr std::array<std::uint8_t, 8> kSignature{0x42, 0x45, 0x4e, 0x44, 
 /// A material number of SubmeshRecord with this bit set is an index into the joint's own MATE chunks.
 inline constexpr std::uint32_t kLocalMaterial = 0x8000'0000u;
 
-// What records.def calls the types of its fields.
+// The type names that records.def uses.
 struct TextureUseRecord;
 namespace stored {
 using u8 = std::uint8_t;
